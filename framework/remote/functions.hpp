@@ -46,6 +46,14 @@ struct Parameter<Tracer&> {
     static Tracer& give(const Received& received) { return *received.tracer; }
 };
 
+template <>
+struct Parameter<PathTracer&> {
+    using Received = ReceivedPathTracer;
+    static auto send(Writer& out, PathTracer& tracer) { return write_path_tracer(out, tracer); }
+    static Received receive(Reader& in) { return read_path_tracer(in); }
+    static PathTracer& give(const Received& received) { return *received.tracer; }
+};
+
 template <typename T>
 struct Parameter<std::span<const T>> {
     using Received = std::vector<T>;

@@ -162,3 +162,21 @@ TEST_CASE("A disk and its light travel", "[remote]") {
     CHECK(disk->radius() == 2.0F);
     CHECK(disk->fill().emission == fill.emission);
 }
+
+TEST_CASE("A sample of a path travels, and so does none", "[remote]") {
+    const ScatterSample sample{
+        .direction = {0.0F, 0.6F, 0.8F}, .weight = {0.1F, 0.2F, 0.3F}, .pdf = 0.25F, .specular = true};
+    std::string bytes;
+    Writer out(bytes);
+    write(out, std::optional(sample));
+    write(out, std::optional<ScatterSample>());
+    Reader in(bytes);
+    const auto read_back = read<std::optional<ScatterSample>>(in);
+    REQUIRE(read_back.has_value());
+    CHECK(read_back->direction == sample.direction);
+    CHECK(read_back->weight == sample.weight);
+    CHECK(read_back->pdf == sample.pdf);
+    CHECK(read_back->specular);
+    CHECK_FALSE(read<std::optional<ScatterSample>>(in).has_value());
+    CHECK(in.at_end());
+}

@@ -11,6 +11,7 @@ namespace {
 struct Lent {
     const SceneQuery* query = nullptr;
     Tracer* tracer = nullptr;
+    PathTracer* path_tracer = nullptr;
     Uses uses;
 };
 
@@ -31,6 +32,14 @@ Tracer& lent_tracer(LentId id) {
     Tracer* tracer = lent(id).tracer;
     if (tracer == nullptr) {
         throw BadMessage("a scene was asked what only a tracer knows");
+    }
+    return *tracer;
+}
+
+PathTracer& lent_path_tracer(LentId id) {
+    PathTracer* tracer = lent(id).path_tracer;
+    if (tracer == nullptr) {
+        throw BadMessage("a scene was asked what only the tracer of paths knows");
     }
     return *tracer;
 }
@@ -79,8 +88,35 @@ private:
     Color background_;
 };
 
+class FarPathTracer final : public PathTracer {
+public:
+    FarPathTracer(LentId id, const Color& background) : scene_(id), background_(background) {}
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        return scene_.closest_hit(ray);
+    }
+    [[nodiscard]] bool occluded(const Ray& ray, float distance) const override {
+        return scene_.occluded(ray, distance);
+    }
+    [[nodiscard]] Color light_sample(const HitRecord& hit) override {
+        return ask<Color, LentId, HitRecord>(FunctionId::lent_light_sample, id(), hit);
+    }
+    [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& hit) override {
+        return ask<std::optional<ScatterSample>, LentId, HitRecord>(FunctionId::lent_scatter, id(), hit);
+    }
+    [[nodiscard]] Color background() const override { return background_; }
+    [[nodiscard]] LentId id() const { return scene_.id(); }
+
+private:
+    FarQuery scene_;
+    Color background_;
+};
+
 std::optional<LentId> id_of_other_end(const SceneQuery& query) {
     if (const auto* far = dynamic_cast<const FarQuery*>(&query)) {
+        return far->id();
+    }
+    if (const auto* far = dynamic_cast<const FarPathTracer*>(&query)) {
         return far->id();
     }
     const auto* far = dynamic_cast<const FarTracer*>(&query);
@@ -104,6 +140,14 @@ Color trace_of(LentId id, const Ray& ray, int depth) {
     const Use use(lent(id).uses);
     return lent_tracer(id).trace(ray, depth);
 }
+Color light_sample_of(LentId id, const HitRecord& hit) {
+    const Use use(lent(id).uses);
+    return lent_path_tracer(id).light_sample(hit);
+}
+std::optional<ScatterSample> scatter_of(LentId id, const HitRecord& hit) {
+    const Use use(lent(id).uses);
+    return lent_path_tracer(id).scatter(hit);
+}
 std::optional<HitRecord> hit_of(GroupId group, std::uint32_t index, const Ray& ray) {
     const Use use = Groups::all().use(group);
     return Groups::all().lent({group, index}).hit(ray);
@@ -117,6 +161,8 @@ bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
                                       offer_function<&occluded_of>(FunctionId::lent_occluded) &&
                                       offer_function<&direct_lighting_of>(FunctionId::lent_direct_lighting) &&
                                       offer_function<&trace_of>(FunctionId::lent_trace) &&
+                                      offer_function<&light_sample_of>(FunctionId::lent_light_sample) &&
+                                      offer_function<&scatter_of>(FunctionId::lent_scatter) &&
                                       offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
                                       offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
 
@@ -145,10 +191,10 @@ std::vector<PlaceInGroup> places_of(const SurfaceList& surfaces) {
 
 }  // namespace
 
-QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer) {
+QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer, PathTracer* path_tracer) {
     static LentId last = 0;
     id_ = ++last;
-    lent_queries()[id_] = {.query = &query, .tracer = tracer, .uses = {}};
+    lent_queries()[id_] = {.query = &query, .tracer = tracer, .path_tracer = path_tracer, .uses = {}};
 }
 
 QueryLoan::~QueryLoan() {
@@ -175,6 +221,15 @@ std::unique_ptr<QueryLoan> write_tracer(Writer& out, Tracer& tracer) {
     return loan;
 }
 
+std::unique_ptr<QueryLoan> write_path_tracer(Writer& out, PathTracer& tracer) {
+    const std::optional<LentId> known = id_of_other_end(tracer);
+    auto loan = known ? nullptr : std::make_unique<QueryLoan>(tracer, nullptr, &tracer);
+    out.put(known.has_value());
+    out.put(known ? *known : loan->id());
+    write(out, tracer.background());
+    return loan;
+}
+
 ReceivedQuery read_query(Reader& in) {
     const bool own = in.get<bool>();
     const auto id = in.get<LentId>();
@@ -196,6 +251,18 @@ ReceivedTracer read_tracer(Reader& in) {
     }
     auto stand_in = std::make_unique<FarTracer>(id, max_ray_depth, background);
     Tracer* tracer = stand_in.get();
+    return {std::move(stand_in), tracer, std::nullopt};
+}
+
+ReceivedPathTracer read_path_tracer(Reader& in) {
+    const bool own = in.get<bool>();
+    const auto id = in.get<LentId>();
+    const auto background = read<Color>(in);
+    if (own) {
+        return {nullptr, &lent_path_tracer(id), Use(lent(id).uses)};
+    }
+    auto stand_in = std::make_unique<FarPathTracer>(id, background);
+    PathTracer* tracer = stand_in.get();
     return {std::move(stand_in), tracer, std::nullopt};
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/path_tracer.hpp"
 #include "core/tracer.hpp"
 #include "remote/groups.hpp"
 #include "remote/message.hpp"
@@ -14,10 +15,10 @@ namespace raysteps::remote {
 
 using LentId = std::uint32_t;
 
-/// While it exists, the other end may ask this scene, which may be a Tracer, too.
+/// While it exists, the other end may ask this scene, which may be a Tracer or a PathTracer, too.
 class QueryLoan {
 public:
-    explicit QueryLoan(const SceneQuery& query, Tracer* tracer = nullptr);
+    explicit QueryLoan(const SceneQuery& query, Tracer* tracer = nullptr, PathTracer* path_tracer = nullptr);
     QueryLoan(const QueryLoan&) = delete;
     QueryLoan& operator=(const QueryLoan&) = delete;
     ~QueryLoan();
@@ -31,6 +32,7 @@ private:
 /// Writes which scene is meant: one that is lent with this question, or one that the other end has lent itself.
 [[nodiscard]] std::unique_ptr<QueryLoan> write_query(Writer& out, const SceneQuery& query);
 [[nodiscard]] std::unique_ptr<QueryLoan> write_tracer(Writer& out, Tracer& tracer);
+[[nodiscard]] std::unique_ptr<QueryLoan> write_path_tracer(Writer& out, PathTracer& tracer);
 
 /// A scene as it came with a question: a stand-in, or an own one that came back.
 struct ReceivedQuery {
@@ -43,8 +45,14 @@ struct ReceivedTracer {
     Tracer* tracer = nullptr;
     std::optional<Use> use;
 };
+struct ReceivedPathTracer {
+    std::unique_ptr<PathTracer> stand_in;
+    PathTracer* tracer = nullptr;
+    std::optional<Use> use;
+};
 [[nodiscard]] ReceivedQuery read_query(Reader& in);
 [[nodiscard]] ReceivedTracer read_tracer(Reader& in);
+[[nodiscard]] ReceivedPathTracer read_path_tracer(Reader& in);
 
 /// Surfaces as they came with a question: copies, or own ones that the other end has copies of.
 struct ReceivedSurfaces {

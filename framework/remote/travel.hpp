@@ -15,6 +15,7 @@
 #include "core/mesh_face.hpp"
 #include "core/pixel_sample.hpp"
 #include "core/random_stream.hpp"
+#include "core/scatter.hpp"
 #include "core/sphere.hpp"
 #include "core/texture.hpp"
 #include "core/triangle.hpp"
@@ -85,6 +86,8 @@ constexpr auto fields(auto& record) {
         return std::tie(record.position, record.normal, record.pdf);
     } else if constexpr (std::is_same_v<Record, PixelSample>) {
         return std::tie(record.offset, record.light);
+    } else if constexpr (std::is_same_v<Record, ScatterSample>) {
+        return std::tie(record.direction, record.weight, record.pdf, record.specular);
     } else if constexpr (std::is_same_v<Record, MeshCorner>) {
         return std::tie(record.position, record.normal, record.uv);
     } else if constexpr (std::is_same_v<Record, Texture>) {

@@ -1,6 +1,7 @@
 #include "render/integrator.hpp"
 
 #include "render/direct_light.hpp"
+#include "render/path_integrator.hpp"
 #include "render/whitted_integrator.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
 
@@ -75,6 +76,9 @@ private:
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator(const Scene& scene, RayCounter& rays, const StepOptions& options) {
+    if (options.step >= 13 && is_of_part_two(options.step)) {
+        return std::make_unique<PathIntegrator>(scene, rays);
+    }
     switch (options.step) {
         case 1:
             return std::make_unique<DirectionIntegrator>(scene, rays);

@@ -16,6 +16,7 @@ FunctionTable all_functions() {
     add_sampling(functions);
     add_meshes(functions);
     add_soft_light(functions);
+    add_paths(functions);
     return functions;
 }
 

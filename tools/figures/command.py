@@ -44,6 +44,8 @@ _DIAGRAMS = {
     "08-ball": bending.glass_ball,
     "09-cut": boxes.cut,
     "10-points": sampling.points,
+    "13-lifted": sampling.lifted,
+    "13-path": sampling.path,
     "11-weights": meshes.weights,
     "11-lift": meshes.lift,
     "11-texels": meshes.texels,

@@ -1,4 +1,5 @@
-"""Steps 10 and 12: where samples lie, in a pixel and on lamps, what they are worth, and what a screen is sent."""
+"""Steps 10, 12 and 13: where samples lie, in a pixel and on lamps, what they are worth, what a screen is sent, and where
+paths go."""
 
 import math
 
@@ -257,4 +258,77 @@ def lens() -> Drawing:
     figure.text((240, 243), "focal_distance, along the view", "small t-muted", "middle")
     figure.text((90, 46), "lens", "small", "middle")
     figure.text((398, 40), "plane of focus", "small t-muted")
+    return figure
+
+
+# Step 13: where a path goes on, and what it finds.
+
+
+def lifted() -> Drawing:
+    """Points of a disk, lifted to the half sphere above it; seen from the side."""
+    figure = Drawing(
+        640,
+        300,
+        "A disk lifted to a half sphere",
+        "Points that lie evenly in a flat disk on the surface are lifted straight up to the half sphere above it. The "
+        "arrows from the middle to the lifted points are the directions: many are steep, few are level.",
+    )
+    middle, radius = (320.0, 250.0), 200.0
+    figure.rect((90, 250), 460, 16, "w-grey")
+    figure.arc(middle, radius, 0, 180, "muted")
+    figure.line((90, 250), (550, 250), "ink")
+    for place in range(-9, 10, 2):
+        x = place / 10
+        foot = (middle[0] + radius * x, middle[1])
+        tip = (foot[0], middle[1] - radius * math.sqrt(1 - x * x))
+        figure.line(foot, tip, "muted thin dash")
+        figure.arrow(middle, tip, "blue")
+        figure.dot(foot, "red")
+    figure.arrow(middle, (middle[0], middle[1] - radius - 34), "ink thick")
+    figure.text((middle[0] + 10, middle[1] - radius - 22), "n", "math")
+    figure.text((112, 288), "points of the disk, evenly spread", "small t-red")
+    figure.text((430, 288), "directions", "small t-blue")
+    return figure
+
+
+def path() -> Drawing:
+    """A path of three hits, with a light sample at each."""
+    figure = Drawing(
+        640,
+        310,
+        "What a path finds",
+        "A room with a lamp in the ceiling. A path runs from the eye to the floor, to the left and the right wall, "
+        "and then meets the lamp by chance. From each of the three hits a dashed line runs to a point of the lamp: the "
+        "light samples. The last piece of the path, into the lamp, is crossed out: that light has come already.",
+    )
+    left, right, top, bottom = 70.0, 450.0, 30.0, 290.0
+    figure.line((left, top), (left, bottom), "red thick")
+    figure.line((right, top), (right, bottom), "green thick")
+    figure.line((left, top), (right, top), "ink")
+    figure.line((left, bottom), (right, bottom), "ink")
+    figure.rect((230, top - 8), 90, 10, "w-red")
+    figure.text((275, 18), "lamp", "small t-red", "middle")
+    hits = [(310.0, bottom), (left, 170.0), (right, 120.0)]
+    eye = (415.0, 225.0)
+    figure.dot(eye, "green", 6)
+    figure.text((408, 210), "eye", "small t-green")
+    for start, end in zip([eye, *hits[:-1]], hits, strict=True):
+        figure.arrow(start, end, "blue thick")
+    figure.line(hits[2], (240.0, top + 3), "blue thick")
+    cross = (345.0, 76.5)
+    figure.line((cross[0] - 8, cross[1] - 8), (cross[0] + 8, cross[1] + 8), "ink thick")
+    figure.line((cross[0] - 8, cross[1] + 8), (cross[0] + 8, cross[1] - 8), "ink thick")
+    for hit, lamp in zip(hits, (285.0, 262.0, 312.0), strict=True):
+        figure.line(hit, (lamp, top + 3), "red dash")
+        figure.dot(hit)
+    words = (
+        ("the path", "t-blue"),
+        ("light samples, each", "t-red"),
+        ("times the weight there", "t-red"),
+        ("crossed out: the sample of", ""),
+        ("the hit before has", ""),
+        ("brought that light", ""),
+    )
+    for number, (line, color) in enumerate(words):
+        figure.text((466, 78 + 26 * number + (12 if number > 2 else 0)), line, f"small {color}".strip())
     return figure

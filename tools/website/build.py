@@ -12,7 +12,7 @@ from typing import Any
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_json
-from raysteps.common.markdown import Block, with_tags, with_targets
+from raysteps.common.markdown import Block, mathml, with_tags, with_targets
 from raysteps.course.project import Project, here
 from tools.website.documents import below, documents, front_page, is_elsewhere, is_shell, sections, split
 
@@ -40,7 +40,7 @@ def make_accessible(site: Path) -> None:
 _LIGHT = dict.fromkeys(("color-brand-primary", "color-brand-content", "color-brand-visited"), "#9a4408")
 _DARK = dict.fromkeys(_LIGHT, "#f5a65b")
 SETTINGS: dict[str, Any] = {
-    "extensions": ["myst_parser", "tools.website.formulas"],
+    "extensions": ["myst_parser", "tools.website.build"],
     "project": "Raysteps",
     "html_title": "Raysteps",
     "html_theme": "furo",
@@ -233,3 +233,23 @@ def put(new: Path, out: Path) -> None:
         if (out / room).is_dir() and not any((out / room).iterdir()):
             (out / room).rmdir()
     write_json(out / _LIST, {"schema": _SCHEMA, "files": files})
+
+
+# Formulas become MathML when the site is built, so a page needs no script and no network to show them.
+
+
+def setup(application: Any) -> dict[str, bool]:
+    """Sphinx calls this."""
+    from docutils import nodes  # which the other commands do not need
+
+    def inline(visitor: Any, node: Any) -> None:
+        visitor.body.append(mathml(node.astext(), block=False))
+        raise nodes.SkipNode
+
+    def block(visitor: Any, node: Any) -> None:
+        visitor.body.append(f'<div class="formula" tabindex="0">{mathml(node.astext(), block=True)}</div>')
+        raise nodes.SkipNode
+
+    application.add_html_math_renderer("mathml", inline_renderers=(inline, None), block_renderers=(block, None))
+    application.config.html_math_renderer = "mathml"
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

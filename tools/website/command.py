@@ -16,7 +16,7 @@ from raysteps.release.page_parts import is_page
 from raysteps.release.secrets import gather
 from raysteps.report.terminal import short_path
 from tools.website.build import GALLERY, PLAY, build_site, check_place, check_tools, put, stage
-from tools.website.documents import COMMANDS_PAGE, dead_links, documents
+from tools.website.documents import COMMANDS_PAGE, bad_formulas, dead_links, documents
 from tools.website.made_pages import api_pages, command_page
 
 
@@ -45,8 +45,6 @@ def _check(project: Project, out: Path, gallery: Path | None, play: Path | None)
 
 def _troubles(project: Project) -> list[str]:
     """What is wrong in the documents themselves."""
-    from tools.website.formulas import bad_formulas  # brings docutils, which the other commands do not need
-
     written = documents(project)
     return [*dead_links(project.root, written), *bad_formulas(project.root, written)]
 

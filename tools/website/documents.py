@@ -1,4 +1,4 @@
-"""Which documents the site has, in which order, and what their links and blocks are."""
+"""Which documents the site has, in which order, and what their links, blocks and formulas are."""
 
 import re
 from collections.abc import Iterable
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote
 
-from raysteps.common.markdown import Block, anchors, targets
+from raysteps.common.markdown import BadFormula, Block, anchors, formulas, mathml, targets
 from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 
@@ -126,3 +126,15 @@ _PROGRAMS = re.compile(
 def is_shell(block: Block) -> bool:
     """Whether people are to type it."""
     return block.tag in _TAGS or (not block.tag and _PROGRAMS.match(block.body) is not None)
+
+
+def bad_formulas(root: Path, documents: Iterable[Path]) -> list[str]:
+    """One line for each that cannot be shown."""
+    found = []
+    for document in documents:
+        for formula in formulas((root / document).read_text(encoding="utf-8")):
+            try:
+                mathml(formula, block=False)
+            except BadFormula as error:
+                found.append(f"{document}: the formula {error}")
+    return found

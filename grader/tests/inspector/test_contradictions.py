@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 from inspect_records import ball_record
 
-from raysteps.inspector.contradictions import contradiction
 from raysteps.inspector.model import Hit
+from raysteps.inspector.records import contradiction
 
 
 @pytest.mark.parametrize("lit", [False, True])

@@ -30,7 +30,7 @@ _PARTS = {
     },
     "course": {"manifest", "project", "stubs"},
     "grading": {"build_messages", "images", "quick_look", "scoring", "self_check", "step", "unit_tests"},
-    "inspector": {"contradictions", "model", "pixel_page", "programs", "records"},
+    "inspector": {"model", "pixel_page", "programs", "records"},
 }  # fmt: skip
 
 

@@ -21,11 +21,10 @@ from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
 from raysteps.course.manifest import chosen_step, read_steps
 from raysteps.course.project import Project
-from raysteps.inspector.contradictions import contradiction
 from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import write_page
 from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
-from raysteps.inspector.records import Difference
+from raysteps.inspector.records import Difference, contradiction
 from raysteps.report.page import NotAPicture, PictureData, picture_data
 from raysteps.toolchain.cmake import BuildTree, release_tree
 

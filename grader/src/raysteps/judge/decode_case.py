@@ -30,7 +30,7 @@ from raysteps.judge.protocol import (
     f32,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.scripted_tracer import Script, ScriptedHit
+from raysteps.judge.scripted_tracer import PathHit, PathScript, Scatter, Script, ScriptedHit
 from raysteps.judge.searches import Rays, Reach, Reaches, WhoseBvh, WhoseTree
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
 
@@ -114,6 +114,15 @@ def _scripted_hit(n: _Numbers) -> ScriptedHit:
     return ScriptedHit(n.real(), n.vector(), n.real(), n.vector())
 
 
+def _scatter(n: _Numbers) -> Scatter:
+    return Scatter(n.vector(), n.vector(), n.flag())
+
+
+def _path_hit(n: _Numbers) -> PathHit:
+    distance, normal, emission, front_face = n.real(), n.vector(), n.vector(), n.flag()
+    return PathHit(distance, normal, emission, n.vector(), _scatter(n) if n.flag() else None, front_face)
+
+
 _READERS: dict[type, Callable[[_Numbers], Any]] = {
     Real: lambda n: Real(n.real()),
     Whole: lambda n: Whole(n.whole()),
@@ -135,6 +144,7 @@ _READERS: dict[type, Callable[[_Numbers], Any]] = {
     Triangle: lambda n: Triangle(n.vector(), n.vector(), n.vector(), _fill(n)),
     Surfaces: lambda n: Surfaces(n.many(_surface)),
     Script: lambda n: Script(n.whole(), n.vector(), n.many(_scripted_hit)),
+    PathScript: lambda n: PathScript(n.vector(), n.flag(), n.many(_path_hit)),
     WhoseTree: lambda n: WhoseTree(n.flag()),
     WhoseBvh: lambda n: WhoseBvh(n.flag()),
     Rays: lambda n: Rays(n.many(_ray)),

@@ -13,7 +13,7 @@ import numpy as np
 
 from raysteps.common.vectors import Vector
 from raysteps.judge.answers import Tolerance
-from raysteps.judge.protocol import Inputs, ProtocolError, Real, TokenReader, Whole, rounded, vector_words
+from raysteps.judge.protocol import Inputs, ProtocolError, Real, TokenReader, Whole, f32, rounded, vector_words
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import DEVIATIONS, Numbers
 
@@ -44,7 +44,8 @@ class Estimates:
     @property
     def error(self) -> Numbers:
         """Standard error of the mean, of each channel."""
-        return np.asarray(self.batches.std(axis=0, ddof=1) / math.sqrt(len(self.batches)))
+        with np.errstate(invalid="ignore", over="ignore"):  # light may be infinite
+            return np.asarray(self.batches.std(axis=0, ddof=1) / math.sqrt(len(self.batches)))
 
     @property
     def work(self) -> float:
@@ -57,7 +58,7 @@ class Estimates:
 def plan(draw: RandomSource, bias: float, most: int = _MOST) -> Inputs:
     """As many estimates as it takes to find a bias of that share of the mean."""
     seed = draw.whole(1, 1_000_000_000)
-    return {"seed": Whole(seed), "precision": Real(bias / _PRECISION_OF_A_BIAS), "most": Whole(most)}
+    return {"seed": Whole(seed), "precision": Real(f32(bias / _PRECISION_OF_A_BIAS)), "most": Whole(most)}
 
 
 def read_estimates(tokens: TokenReader) -> Estimates:

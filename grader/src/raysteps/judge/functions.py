@@ -96,6 +96,7 @@ _MODULES = {
     "10": "sampling",
     "11": "meshes",
     "12": "soft_light",
+    "13": "path_tracing",
 }
 
 

@@ -1,0 +1,97 @@
+// Paths by the reference's steps, in scenes whose light is known in closed form.
+#include "render/integrator.hpp"
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+HitRecord hit_of(const Ray& ray, float distance, const glm::vec3& normal, float albedo) {
+    HitRecord hit;
+    hit.position = ray.origin + distance * ray.direction;
+    hit.normal = glm::dot(normal, ray.direction) <= 0.0F ? normal : -normal;
+    hit.ray_direction = ray.direction;
+    hit.distance = distance;
+    hit.fill.color = Color(albedo);
+    return hit;
+}
+
+/// The lower half of the unit sphere, seen from inside and from outside: a bowl.
+FakeScene bowl(float albedo) {
+    return FakeScene([albedo](const Ray& ray) -> std::optional<HitRecord> {
+        const float half = glm::dot(ray.origin, ray.direction);
+        const float inside = half * half - glm::dot(ray.origin, ray.origin) + 1.0F;
+        if (inside < 0.0F) {
+            return std::nullopt;
+        }
+        for (const float distance : {-half - std::sqrt(inside), -half + std::sqrt(inside)}) {
+            const glm::vec3 position = ray.origin + distance * ray.direction;
+            if (distance > 0.0F && position.y < 0.0F) {
+                return hit_of(ray, distance, position, albedo);
+            }
+        }
+        return std::nullopt;
+    });
+}
+
+/// The mean light of many paths along the ray.
+Color mean_light(const SceneQuery& query, const Scene& scene, const Ray& ray, int paths) {
+    RayCounter rays(query);
+    const auto integrator = make_integrator(scene, rays, {.step = 13});
+    Color sum(0.0F);
+    for (int number = 0; number < paths; ++number) {
+        sum += integrator->primary_color(ray, {.pixel = 13, .index = static_cast<std::uint32_t>(number)});
+    }
+    return sum / static_cast<float>(paths);
+}
+
+const Ray k_down{{0.1F, 3.0F, 0.2F}, {0.0F, -1.0F, 0.0F}};
+
+}  // namespace
+
+TEST_CASE("Paths: a ball below an even sky sends out its share of the sky's light", "[render][paths]") {
+    Scene scene;
+    scene.background = Color(1.0F, 0.5F, 2.0F);
+    const FakeScene ball([](const Ray& ray) {
+        return Sphere(glm::vec3(0.0F), 1.0F, Fill{.color = Color(0.6F), .kd = 0.5F}).intersect(ray);
+    });
+    INFO("no path comes back to a ball, and each brings the same: there is no noise");
+    CHECK_THAT(mean_light(ball, scene, k_down, 50), IsNear(0.3F * scene.background));
+}
+
+// In a bowl that is half a sphere each place sees as much of every other one: half of what it sends out goes to the
+// sky, half stays. So the light is a/2 (1 + a/2 + (a/2)^2 + ...) of the sky's.
+TEST_CASE("Paths: a bowl keeps light in closed form", "[render][paths]") {
+    Scene scene;
+    scene.background = k_white;
+    for (const float albedo : {0.3F, 0.8F}) {
+        CAPTURE(albedo);
+        const double expected = static_cast<double>(0.5F * albedo / (1.0F - 0.5F * albedo));
+        CHECK(mean_light(bowl(albedo), scene, k_down, 20000).x == about(expected, 0.015));
+    }
+}
+
+TEST_CASE("Paths: a lamp is seen, and lights what is below it by its samples", "[render][paths]") {
+    Scene scene;
+    const glm::vec3 above(0.0F, 1.0F, 0.0F);
+    const float radius = 0.5F;
+    scene.area_lights.push_back({DiskLight{.center = above, .normal = -above, .radius = radius}, Color(4.0F)});
+    const FakeScene floor_and_lamp([&](const Ray& ray) -> std::optional<HitRecord> {
+        const float to_lamp = (1.0F - ray.origin.y) / ray.direction.y;
+        const glm::vec3 place = ray.origin + to_lamp * ray.direction;
+        if (to_lamp > 0.0F && glm::length(place - above) < radius) {
+            HitRecord hit = hit_of(ray, to_lamp, above, 0.0F);
+            hit.fill.emission = Color(4.0F);
+            hit.front_face = ray.direction.y > 0.0F;
+            return hit;
+        }
+        const float to_floor = -ray.origin.y / ray.direction.y;
+        return to_floor > 0.0F ? std::optional(hit_of(ray, to_floor, above, 0.5F)) : std::nullopt;
+    });
+    const Ray up{{0.0F, 0.1F, 0.0F}, {0.0F, 1.0F, 0.0F}};
+    CHECK_THAT(mean_light(floor_and_lamp, scene, up, 4), IsNear(Color(4.0F)));
+    INFO("straight below a disk: albedo * radiance * r^2 / (r^2 + h^2), and the black lamp sends nothing back");
+    const Ray down{{0.0F, 0.9F, 0.0F}, {0.0F, -1.0F, 0.0F}};
+    CHECK(mean_light(floor_and_lamp, scene, down, 20000).x == about(0.5 * 4.0 * 0.2, 0.01));
+}

@@ -1,0 +1,563 @@
+"""Cases of step 13: directions with a density, what they count, and paths through scripted scenes."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
+from raysteps.judge.answers import (
+    Answer,
+    Tolerance,
+    angle,
+    channels,
+    first,
+    itself,
+    real,
+    share_right,
+    words_of_number,
+)
+from raysteps.judge.estimates import Estimates, estimates_problem, plan, read_estimates, words_of_estimates
+from raysteps.judge.functions import Function, Group
+from raysteps.judge.protocol import (
+    Fill,
+    Hit,
+    Inputs,
+    Ray,
+    Real,
+    TokenReader,
+    Vec,
+    Whole,
+    f32,
+    rounded,
+    text,
+    vector_words,
+)
+from raysteps.judge.random_source import RandomSource, next_axis
+from raysteps.judge.scripted_tracer import MOST_ASKED, PathHit, PathScript, Scatter
+from raysteps.judge.statistics import Numbers, has_mean, is_uniform
+
+# Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
+# compared with the reference's. Seen from above the tip of such a direction lies anywhere in the unit disk, all places
+# equally likely: the square of its distance from the middle, and its angle, are even.
+
+_UNIT = 1e-4
+_FEW, _MANY = 8, 16  # bins for each of the two
+_MANY_DIRECTIONS = 16_384  # from here on the finer bins
+_MOST = 40_000
+
+
+def _vec(inputs: Inputs, name: str) -> Vector:
+    value = inputs[name]
+    assert isinstance(value, Vec)
+    return value.value
+
+
+def _whole(inputs: Inputs, name: str) -> int:
+    value = inputs[name]
+    assert isinstance(value, Whole)
+    return value.value
+
+
+def _unit_problem(directions: Numbers, normal: Vector) -> str:
+    if not np.isfinite(directions).all():
+        return "a direction is NaN"
+    if not (np.abs(np.linalg.norm(directions, axis=1) - 1) <= _UNIT).all():
+        return "a direction does not have length 1"
+    if not (directions @ np.array(normal) >= -_UNIT).all():
+        return "a direction leads below the surface"
+    return ""
+
+
+def _shares(directions: Numbers, normal: Vector) -> Numbers:
+    """Two even numbers from 0 to 1 of each direction, where its density is right."""
+    axis = (1.0, 0.0, 0.0) if abs(normal[0]) < 0.7 else (0.0, 1.0, 0.0)
+    side = unit(cross(normal, axis))
+    x, y = directions @ np.array(side), directions @ np.array(cross(normal, side))
+    return np.stack([np.minimum(x * x + y * y, 1.0), np.arctan2(y, x) / (2 * math.pi) % 1.0], axis=1)
+
+
+def _density_problem(directions: Numbers, normal: Vector) -> str:
+    """Of one direction nothing can be told: a smallest counterexample has too few."""
+    problem = _unit_problem(directions, normal)
+    if problem or len(directions) < 2:
+        return problem
+    shares = _shares(directions, normal)
+    bins = _MANY if len(directions) >= _MANY_DIRECTIONS else _FEW
+    heights, turns = shares[:, 0], shares[:, 1]
+    if not (is_uniform(turns, 4 * bins) and has_mean(turns, 0.5, math.sqrt(1 / 12))):
+        return "directions do not come evenly from all sides around the normal"
+    if not has_mean(heights, 0.5, math.sqrt(1 / 12)):
+        return f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often"
+    if not is_uniform(heights, 4 * bins):
+        return "some heights come more often than others"
+    return "" if is_uniform(shares, bins) else "height and side of a direction have to do with each other"
+
+
+def _read_directions(tokens: TokenReader) -> Numbers:
+    found: list[Vector] = []
+    while not tokens.at_end() and len(found) <= _MOST:
+        found.append(tokens.vector())
+    return np.array(found, dtype=np.float64).reshape(-1, 3)
+
+
+def _words_of_directions(directions: Numbers) -> str:
+    shown = ", ".join(_words(direction) for direction in directions[:4])
+    return f"{len(directions)} directions, first {shown}"
+
+
+def _words(v: Sequence[float] | Numbers) -> str:
+    x, y, z = (float(value) for value in v)
+    return vector_words((x, y, z))
+
+
+def _directions_problem(inputs: Inputs, _expected: Numbers, actual: Numbers) -> str:
+    if len(actual) != _whole(inputs, "times"):
+        return "no proper answer came"
+    return _density_problem(actual, _vec(inputs, "normal"))
+
+
+def _draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
+    return {"seed": Whole(draw.whole(1, 1_000_000_000)), "times": Whole(amount)}
+
+
+def _directions(draw: RandomSource, normal: Vector, amount: int = 2048) -> Inputs:
+    return {"normal": Vec(normal), **_draws(draw, amount)}
+
+
+def _near_an_axis(draw: RandomSource) -> Vector:
+    """Where frames around the normal are made in one way or in another."""
+    axis, other = draw.axis(), draw.direction()
+    return rounded(unit(add(axis, other, draw.logarithmic(1e-7, 0.03))))
+
+
+_COSINE_DIRECTION = Function(
+    "cosine_direction",
+    Answer(_read_directions, _words_of_directions, _directions_problem),
+    (
+        Group("any normal", lambda d: _directions(d, d.direction())),
+        Group("along an axis", lambda d: _directions(d, d.axis()), exact=True),
+        Group("nearly along an axis", lambda d: _directions(d, _near_an_axis(d))),
+        Group("very many directions", lambda d: _directions(d, d.direction(), 32_768)),
+    ),
+)
+
+
+# The density.
+
+_DENSITY = Tolerance(2e-6, 1e-4)
+
+
+def _pdf(normal: Vector, direction: Vector) -> Inputs:
+    return {"normal": Vec(normal), "direction": Vec(direction)}
+
+
+def _pdf_above(draw: RandomSource, low: float, high: float) -> Inputs:
+    normal = draw.direction()
+    return _pdf(normal, draw.above(normal, low, high))
+
+
+def _pdf_below(draw: RandomSource) -> Inputs:
+    inputs = _pdf_above(draw, 0.01, 0.99)
+    return _pdf(_vec(inputs, "normal"), times(-1, _vec(inputs, "direction")))
+
+
+def _simple_pdf(draw: RandomSource) -> Inputs:
+    """Straight up, 0.6 or 0.8 up, level."""
+    normal, up = draw.axis(), (1.0, 0.8, 0.6, 0.0)[draw.whole(0, 3)]
+    sine = math.sqrt(1 - up * up)
+    return _pdf(normal, rounded(add(times(up, normal), next_axis(normal), sine)))
+
+
+def _number_answer(what: str, tolerance: Tolerance) -> Answer[float]:
+    return Answer(
+        lambda tokens: tokens.real(),
+        words_of_number,
+        lambda _, expected, actual: real(what, expected, actual, tolerance),
+    )
+
+
+_COSINE_PDF = Function(
+    "cosine_pdf",
+    _number_answer("the density", _DENSITY),
+    (
+        Group("above the surface", lambda d: _pdf_above(d, 0.05, 0.99)),
+        Group("below it", _pdf_below),
+        Group("nearly level", lambda d: _pdf_above(d, 0.001, 0.05)),
+        Group("simple numbers", _simple_pdf, exact=True),
+    ),
+)
+
+
+# What a diffuse surface makes of it.
+
+
+@dataclass(frozen=True)
+class _Samples:
+    """Each row: direction, weight, pdf, 1 where it is specular. `nothing`: so often nothing came."""
+
+    nothing: int
+    rows: Numbers
+
+
+def _read_samples(tokens: TokenReader) -> _Samples:
+    rows: list[list[float]] = []
+    nothing = 0
+    while not tokens.at_end() and len(rows) + nothing <= _MOST:
+        if tokens.flag():
+            rows.append([*tokens.vector(), *tokens.vector(), tokens.real(), float(tokens.flag())])
+        else:
+            nothing += 1
+    return _Samples(nothing, np.array(rows, dtype=np.float64).reshape(-1, 8))
+
+
+def _words_of_samples(samples: _Samples) -> str:
+    shown = [f"nothing {samples.nothing} times"] if samples.nothing else []
+    if len(samples.rows):
+        row = samples.rows[0]
+        shown.append(
+            f"{len(samples.rows)} samples, first direction {_words(row[:3])} weight {_words(row[3:6])} "
+            f"pdf {text(f32(float(row[6])))}{' specular' if row[7] else ''}"
+        )
+    return ", ".join(shown)
+
+
+_WEIGHT = Tolerance(1e-5, 5e-4)
+_STEEP = 0.02  # cosine: below it a float's rounding is too much of it to compare with
+
+
+def _of_the_hit(inputs: Inputs) -> tuple[Vector, Vector]:
+    """Normal, and albedo."""
+    hit = inputs["hit"]
+    assert isinstance(hit, Hit)
+    return hit.normal, times(hit.fill.kd, hit.fill.color)
+
+
+def _sample_problems(inputs: Inputs, actual: _Samples) -> tuple[str, ...]:
+    normal, albedo = _of_the_hit(inputs)
+    if len(actual.rows) + actual.nothing != _whole(inputs, "times"):
+        return ("no proper answer came",) * 3
+    if not any(albedo):
+        return ("a surface that sends no light on gives samples",) * 3 if len(actual.rows) else ("", "", "")
+    if actual.nothing:
+        return ("nothing came from a surface that sends light on",) * 3
+    directions, weights, pdfs = actual.rows[:, :3], actual.rows[:, 3:6], actual.rows[:, 6]
+    cosines = directions @ np.array(normal)
+    steep = cosines > _STEEP
+    densities = np.maximum(cosines, 0.0) / math.pi
+    right_pdf = bool(np.all(np.abs(pdfs - densities)[steep] <= _DENSITY.absolute + 1e-3 * densities[steep]))
+    gaps = np.abs(weights - np.array(albedo)) <= _WEIGHT.absolute + _WEIGHT.relative * np.array(albedo)
+    return (
+        _density_problem(directions, normal),
+        "" if gaps.all() else "the weight is not f cos / pdf",
+        "" if right_pdf else "the pdf is not that of the direction",
+        "a diffuse surface gives a specular sample" if actual.rows[:, 7].any() else "",
+    )
+
+
+def _scatter(draw: RandomSource, fill: Fill, normal: Vector, amount: int) -> Inputs:
+    along = times(-1, draw.above(normal, 0.05))
+    hit = Hit(draw.point(5), normal, along, draw.real(0.5, 9), fill, draw.chance(0.7))
+    return {"hit": hit, **_draws(draw, amount)}
+
+
+def _colored(draw: RandomSource) -> Fill:
+    return Fill(draw.color(0.05, 1.0), draw.real(0.2, 1), draw.real(0.1, 1), draw.real(2, 40))
+
+
+def _one_black(draw: RandomSource) -> Fill:
+    """Some channels are 0, others are not."""
+    color = [draw.real(0.2, 1.0), 0.0, draw.real(0.2, 1.0) if draw.chance(0.5) else 0.0]
+    turn = draw.whole(0, 2)
+    x, y, z = color[turn:] + color[:turn]
+    return Fill((x, y, z), draw.real(0.2, 1))
+
+
+def _black(draw: RandomSource) -> Fill:
+    return Fill(draw.color(), 0.0) if draw.chance(0.5) else Fill((0.0, 0.0, 0.0), draw.real(0.2, 1))
+
+
+_SCATTER_DIFFUSE = Function(
+    "scatter_diffuse",
+    Answer(
+        _read_samples,
+        _words_of_samples,
+        lambda inputs, _expected, actual: first(*_sample_problems(inputs, actual)),
+        lambda inputs, _expected, actual: 0.5 * share_right(*_sample_problems(inputs, actual)),
+    ),
+    (
+        Group("any colour", lambda d: _scatter(d, _colored(d), d.direction(), 512)),
+        Group("some channels black", lambda d: _scatter(d, _one_black(d), d.direction(), 512)),
+        Group("nothing comes back", lambda d: _scatter(d, _black(d), d.direction(), 64), exact=True),
+        Group("along an axis", lambda d: _scatter(d, _colored(d), d.axis(), 512), exact=True),
+        Group("very many samples", lambda d: _scatter(d, _colored(d), d.direction(), 16_384)),
+    ),
+)
+
+
+# Roulette.
+
+
+def _weight(x: float, y: float, z: float) -> Inputs:
+    return {"weight": Vec(rounded((x, y, z)))}
+
+
+def _mixed(draw: RandomSource, low: float, high: float) -> Inputs:
+    return _weight(*draw.color(low, high))
+
+
+def _one_bright(draw: RandomSource) -> Inputs:
+    """One channel is far above the others."""
+    color = [draw.real(0.5, 0.93), draw.real(0.0, 0.1), draw.real(0.0, 0.1)]
+    turn = draw.whole(0, 2)
+    return _weight(*(color[turn:] + color[:turn]))
+
+
+_SURVIVAL = Function(
+    "survival_probability",
+    _number_answer("the probability", Tolerance(1e-6, 1e-5)),
+    (
+        Group("any weight", lambda d: _mixed(d, 0.01, 0.94)),
+        Group("one channel is bright", _one_bright),
+        Group(
+            "nearly white, and more", lambda d: _weight(d.real(0.951, 20), d.real(0.1, 9), d.real(0.1, 1)), exact=True
+        ),
+        Group("a faint one", lambda d: _mixed(d, 1e-6, 1e-3)),
+        Group("black", lambda _d: _weight(0.0, 0.0, 0.0), exact=True),
+    ),
+)
+
+
+# Whole paths. What a scene's rays meet is scripted. As long as no roulette is played one path gives the exact light;
+# with it, the mean of many is compared with the sum that the script makes certain.
+
+_SURE = 3  # bounces before roulette, as in the contract
+_BLACK: Vector = (0.0, 0.0, 0.0)
+_ON_THE_HIT, _AT_THE_HIT = 5e-5, 0.02  # from the surface, in world units
+_DEGREES = 0.5
+_SMALLEST = 1e-12  # of a weight: what comes after it adds nothing
+
+
+@dataclass(frozen=True)
+class _Light:
+    """Of one path, with the rays that were cast; or the mean of many."""
+
+    color: Vector
+    cast: tuple[Ray, ...]
+    many: Estimates | None
+
+
+def _is_for_many(inputs: Inputs) -> bool:
+    return _whole(inputs, "most") > 0
+
+
+def _read_light(tokens: TokenReader) -> _Light:
+    if tokens.word() == "often":
+        many = read_estimates(tokens)
+        x, y, z = (float(channel) for channel in many.mean)
+        return _Light((x, y, z), (), many)
+    color = tokens.vector()
+    return _Light(color, tuple(Ray(tokens.vector(), tokens.vector()) for _ in range(tokens.whole(0, MOST_ASKED))), None)
+
+
+def _words_of_light(light: _Light) -> str:
+    if light.many is not None:
+        return words_of_estimates(light.many)
+    cast = "; ".join(ray.words() for ray in light.cast) or "none"
+    return f"light {vector_words(light.color)}; rays cast: {cast}"
+
+
+def _script(inputs: Inputs) -> PathScript:
+    script = inputs["tracer"]
+    assert isinstance(script, PathScript)
+    return script
+
+
+def mean_light(script: PathScript) -> Vector:
+    """What paths bring on average: all that the script's rays find, each with the weight that it has there."""
+    light, weight = np.zeros(3), np.ones(3)
+    sees_lamps = True
+    number = 0
+    while weight.max() > _SMALLEST:
+        if number >= len(script.hits) and not (script.goes_on and script.hits):
+            light += weight * np.array(script.background)
+            break
+        hit = script.hits[min(number, len(script.hits) - 1)]
+        light += weight * (np.array(hit.light) + (np.array(hit.emission) if sees_lamps and hit.front_face else 0.0))
+        if hit.scatter is None:
+            break
+        weight = weight * np.array(hit.scatter.weight)
+        sees_lamps = hit.scatter.specular
+        number += 1
+    x, y, z = (float(channel) for channel in light)
+    return x, y, z
+
+
+def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -> bool:
+    """A ray other than scattered_ray's, from the hit that the ray before it had."""
+    same = all(
+        angle(mine.direction, theirs.direction) <= _DEGREES for mine, theirs in zip(expected, actual, strict=True)
+    )
+    if not same or not length(minus(expected[0].origin, actual[0].origin)) <= 1e-3:
+        return True
+    for before, after, hit in zip(actual, actual[1:], _script(inputs).hits, strict=False):
+        position = add(before.origin, before.direction, hit.distance)
+        if not _ON_THE_HIT <= length(minus(after.origin, position)) <= _AT_THE_HIT:
+            return True
+    return False
+
+
+_TOO_LONG = 4.0  # times the reference's questions
+
+
+def _light_problem(inputs: Inputs, expected: _Light, actual: _Light) -> str:
+    if (expected.many is None) != (actual.many is None):
+        return "no proper answer came"
+    if expected.many is not None and actual.many is not None:
+        per_path = actual.many.cost / actual.many.count
+        if per_path > _TOO_LONG * expected.many.cost / expected.many.count:
+            return "paths go on for much too long"
+        return estimates_problem("the light", mean_light(_script(inputs)), expected.many, actual.many)
+    counts = ""
+    if len(actual.cast) != len(expected.cast):
+        counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
+    astray = not counts and _is_astray(inputs, expected.cast, actual.cast)
+    return first(
+        counts,
+        "a ray that was cast is wrong" if astray else "",
+        channels("the light", expected.color, actual.color, Tolerance(1e-4, 5e-4)),
+    )
+
+
+def _light_credit(inputs: Inputs, expected: _Light, actual: _Light) -> float:
+    """The right rays with a wrong light are a quarter of it."""
+    if expected.many is not None or len(actual.cast) != len(expected.cast) or len(actual.cast) < 2:
+        return 0.0
+    return 0.0 if _is_astray(inputs, expected.cast, actual.cast) else 0.25
+
+
+def _once(draw: RandomSource, script: PathScript) -> Inputs:
+    ray = Ray(draw.point(3), draw.direction())
+    seed = Whole(draw.whole(1, 1_000_000_000))
+    return {"ray": ray, "tracer": script, "seed": seed, "precision": Real(0.0), "most": Whole(0)}
+
+
+def _often(draw: RandomSource, script: PathScript, bias: float) -> Inputs:
+    return {"ray": Ray(draw.point(3), draw.direction()), "tracer": script, **plan(draw, bias)}
+
+
+def _path_hit(
+    draw: RandomSource,
+    number: int,
+    *,
+    emission: bool = False,
+    specular: bool = False,
+    last: bool = False,
+    behind: bool = False,
+) -> PathHit:
+    """Light that is sampled there, unless it is a mirror; emission where it is wanted."""
+    light = _BLACK if specular else draw.color(0.1, 1.0)
+    scatter = None if last else Scatter(draw.direction(), draw.color(0.3, 0.9), specular)
+    sent = draw.color(0.5, 4.0) if emission else _BLACK
+    return PathHit(number + 1 + draw.real(0.1, 0.8), draw.direction(), sent, light, scatter, not behind)
+
+
+def _hits(draw: RandomSource, kinds: Sequence[str]) -> tuple[PathHit, ...]:
+    """Letters: e that it sends light itself, b that it is met from behind, s that it is specular, x that the path ends
+    there."""
+    return tuple(
+        _path_hit(draw, i, emission="e" in kind, specular="s" in kind, last="x" in kind, behind="b" in kind)
+        for i, kind in enumerate(kinds)
+    )
+
+
+def _plain(draw: RandomSource) -> Inputs:
+    """One to four hits, some of which send light; the path ends there, or leaves the scene."""
+    size = draw.whole(1, 4)
+    kinds = ["e" if draw.chance(0.3) else "" for _ in range(size)]
+    if size == 4 or draw.chance(0.5):
+        kinds[-1] += "x"
+    return _once(draw, PathScript(draw.color(0.1, 0.8), goes_on=False, hits=_hits(draw, kinds)))
+
+
+def _of_kinds(*choices: tuple[str, ...], background: bool = False) -> Callable[[RandomSource], Inputs]:
+    def make(draw: RandomSource) -> Inputs:
+        kinds = choices[draw.whole(0, len(choices) - 1)]
+        sky = draw.color(0.1, 0.9) if background else _BLACK
+        return _once(draw, PathScript(sky, goes_on=False, hits=_hits(draw, kinds)))
+
+    return make
+
+
+def _gray(draw: RandomSource, low: float, high: float) -> Vector:
+    value = draw.real(low, high)
+    return value, value, value
+
+
+def _furnace(draw: RandomSource, low: float, high: float) -> PathScript:
+    """Each wall sends back the same share of the light, and each gets the same from the lamps."""
+    scatter = Scatter(draw.direction(), _gray(draw, low, high))
+    hit = PathHit(1.5, draw.direction(), _BLACK, draw.color(0.3, 1.0), scatter)
+    return PathScript(_BLACK, goes_on=True, hits=(hit,))
+
+
+def _late(draw: RandomSource) -> PathScript:
+    """All light is found behind twelve bounces: roulette has taken some of the paths, and those left count more."""
+    dark = [
+        PathHit(
+            i + 1 + draw.real(0.1, 0.8),
+            draw.direction(),
+            _BLACK,
+            _BLACK,
+            Scatter(draw.direction(), _gray(draw, 0.93, 0.99)),
+        )
+        for i in range(12)
+    ]
+    last = PathHit(14.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
+    return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
+
+
+def _colored_walls(draw: RandomSource) -> PathScript:
+    """A channel that is strong, one that is weak."""
+    weight = (draw.real(0.75, 0.85), draw.real(0.3, 0.5), draw.real(0.55, 0.7))
+    hit = PathHit(1.5, draw.direction(), _BLACK, draw.color(0.3, 1.0), Scatter(draw.direction(), weight))
+    return PathScript(_BLACK, goes_on=True, hits=(hit,))
+
+
+def _hall_of_mirrors(draw: RandomSource) -> PathScript:
+    """Mirrors that glow a little, each shown in the next."""
+    scatter = Scatter(draw.direction(), _gray(draw, 0.6, 0.75), specular=True)
+    hit = PathHit(1.5, draw.direction(), draw.color(0.3, 1.0), _BLACK, scatter)
+    return PathScript(_BLACK, goes_on=True, hits=(hit,))
+
+
+def _bright(draw: RandomSource) -> Inputs:
+    """A very bright lamp, seen or sampled behind a bounce or two."""
+    hits = list(_hits(draw, ("", "", "x")))
+    number = draw.whole(0, 2)
+    old = hits[number]
+    hits[number] = PathHit(old.distance, old.normal, _BLACK, draw.color(50, 2000), old.scatter)
+    return _once(draw, PathScript(_BLACK, goes_on=False, hits=tuple(hits)))
+
+
+_PATH_LIGHT = Function(
+    "path_light",
+    Answer(_read_light, _words_of_light, _light_problem, _light_credit, near=lambda light: itself(light.color)),
+    (
+        Group("up to four hits", _plain),
+        Group("a lamp that is seen", _of_kinds(("ex",), ("e", "x"), ("e", "", "x"))),
+        Group("a lamp behind a diffuse bounce", _of_kinds(("", "ex"), ("", "", "ex"), ("", "e", "ex"))),
+        Group("a lamp from behind", _of_kinds(("ebx",), ("eb", "x"), ("s", "ebx"), ("e", "ebx"))),
+        Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "e", "x"))),
+        Group("nothing is met", _of_kinds((), ("",), ("s",), ("", ""), ("", "s", ""), background=True)),
+        Group("a very bright lamp", _bright),
+        Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.02)),
+        Group("bright walls", lambda d: _often(d, _furnace(d, 0.75, 0.8), 0.06)),
+        Group("light found late", lambda d: _often(d, _late(d), 0.2)),
+        Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.08)),
+        Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.08)),
+    ),
+)
+
+FUNCTIONS = (_COSINE_DIRECTION, _COSINE_PDF, _SCATTER_DIFFUSE, _SURVIVAL, _PATH_LIGHT)

@@ -1,0 +1,129 @@
+"""What the judge says of directions and samples that are wrong in one way, and the light of scripted paths."""
+
+import math
+
+import numpy as np
+import pytest
+
+from raysteps.judge.cases.path_tracing import FUNCTIONS, mean_light
+from raysteps.judge.functions import Function
+from raysteps.judge.protocol import Fill, Hit, Inputs, Vec, Whole, text
+from raysteps.judge.scripted_tracer import PathHit, PathScript, Scatter
+from raysteps.judge.statistics import Numbers
+
+_FUNCTIONS = {function.name: function for function in FUNCTIONS}
+_TIMES = 2048
+_UP = (0.0, 0.0, 1.0)
+
+
+def _line(numbers: Numbers) -> str:
+    return " ".join(text(float(np.float32(number))) for number in numbers.ravel())
+
+
+def _lifted(heights: Numbers, turns: Numbers) -> Numbers:
+    """Directions around z with these heights, and angles in turns."""
+    across = np.sqrt(np.maximum(0.0, 1 - heights**2))
+    angles = 2 * math.pi * turns
+    return np.stack([across * np.cos(angles), across * np.sin(angles), heights], axis=1)
+
+
+def _draw(times: int = _TIMES, seed: int = 13) -> tuple[Numbers, Numbers]:
+    one, other = np.random.default_rng(seed).random((2, times))
+    return one, other
+
+
+def _right(seed: int = 13) -> Numbers:
+    u, v = _draw(seed=seed)
+    return _lifted(np.sqrt(u), v)
+
+
+def _verdict(function: Function, inputs: Inputs, right: str, line: str) -> str:
+    return str(function.answer.verdict(function.name, inputs, right, line).problem)
+
+
+_DIRECTION: Inputs = {"normal": Vec(_UP), "seed": Whole(1), "times": Whole(_TIMES)}
+
+
+def _of_directions(directions: Numbers) -> str:
+    return _verdict(_FUNCTIONS["cosine_direction"], _DIRECTION, _line(_right()), _line(directions))
+
+
+def test_right_directions_never_fail() -> None:
+    assert not any(_of_directions(_right(seed)) for seed in range(200))
+
+
+_U, _V = _draw()
+
+
+@pytest.mark.parametrize(
+    ("directions", "said"),
+    [
+        (_lifted(_U, _V), "level directions come too often"),
+        (_lifted(np.cbrt(_U), _V), "steep directions come too often"),
+        (_lifted(np.sqrt(1 - _U**2), _V), "steep directions come too often"),
+        (_lifted(np.sqrt(_U), 0.5 * _V), "evenly from all sides"),
+        (_lifted(np.sqrt(_U), _U), "have to do with each other"),
+        (_lifted(np.sqrt(np.where(_U < 0.5, 0.25, 0.75)), _V), "some heights"),
+        (-_right(), "below the surface"),
+        (1.01 * _right(), "length 1"),
+        (_right()[:-1], "no proper answer"),
+        (np.full((_TIMES, 3), np.nan), "NaN"),
+    ],
+)
+def test_each_wrong_density_has_its_words(directions: Numbers, said: str) -> None:
+    assert said in _of_directions(np.asarray(directions))
+
+
+_HIT = Hit((0.0, 0.0, 0.0), _UP, (0.0, 0.0, -1.0), 1.0, Fill((0.8, 0.4, 0.2), 0.5))
+_SCATTER: Inputs = {"hit": _HIT, "seed": Whole(1), "times": Whole(_TIMES)}
+
+
+def _samples(weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0) -> str:
+    directions = _right()
+    weights = np.tile(weight * np.array((0.4, 0.2, 0.1)), (_TIMES, 1))
+    pdfs = pdf * directions[:, 2:] / math.pi
+    rows = np.concatenate([np.ones((_TIMES, 1)), directions, weights, pdfs, np.full((_TIMES, 1), specular)], axis=1)
+    return _line(rows)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (_samples(weight=0.99), "the weight is not f cos / pdf"),
+        (_samples(pdf=1.01), "the pdf is not that of the direction"),
+        (_samples(specular=1.0), "a specular sample"),
+        ("0 " * _TIMES, "nothing came"),
+        (_samples()[:5000], "no proper answer"),
+    ],
+)
+def test_each_part_of_a_sample_is_looked_at(line: str, said: str) -> None:
+    scatter = _FUNCTIONS["scatter_diffuse"]
+    assert _verdict(scatter, _SCATTER, _samples(), _samples()) == ""
+    assert said in _verdict(scatter, _SCATTER, _samples(), line)
+
+
+# The sums that paths are compared with, beside closed forms.
+
+_BLACK = (0.0, 0.0, 0.0)
+
+
+def _hit(
+    distance: float, weight: float | None, *, emission: float = 0.0, light: float = 0.0, mirror: bool = False
+) -> PathHit:
+    scatter = None if weight is None else Scatter(_UP, (weight, weight, weight), mirror)
+    return PathHit(distance, _UP, (emission,) * 3, (light,) * 3, scatter)
+
+
+@pytest.mark.parametrize(
+    ("script", "light"),
+    [
+        (PathScript((0.3, 0.3, 0.3), goes_on=False, hits=()), 0.3),
+        (PathScript(_BLACK, goes_on=True, hits=(_hit(1, 0.5, light=1.0),)), 2.0),
+        (PathScript(_BLACK, goes_on=True, hits=(_hit(1, 0.8, emission=1.0, mirror=True),)), 5.0),
+        (PathScript(_BLACK, goes_on=True, hits=(_hit(1, 0.8, emission=1.0),)), 1.0),
+        (PathScript((0.5, 0.5, 0.5), goes_on=False, hits=(_hit(1, 0.5, light=0.1), _hit(2, 0.5, emission=9.0))), 0.225),
+        (PathScript(_BLACK, goes_on=False, hits=(_hit(1, 0.5, mirror=True), _hit(2, None, emission=9.0))), 4.5),
+    ],
+)
+def test_the_mean_light_of_a_script(script: PathScript, light: float) -> None:
+    assert mean_light(script) == pytest.approx((light, light, light))

@@ -1,0 +1,311 @@
+// Visible tests of step 13: directions and their density, what they count, and what a path brings.
+#include "steps/13-path-tracing/path_tracing.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "testing/testing.hpp"
+
+using namespace raysteps;
+using namespace raysteps::testing;
+
+namespace {
+
+constexpr float k_pi = 3.14159265F;
+
+HitRecord diffuse_hit(const glm::vec3& normal, const Color& color, float kd = 1.0F) {
+    HitRecord hit;
+    hit.position = glm::vec3(1.0F, 2.0F, 3.0F);
+    hit.normal = normal;
+    hit.ray_direction = -normal;
+    hit.distance = 1.0F;
+    hit.fill.color = color;
+    hit.fill.kd = kd;
+    return hit;
+}
+
+/// What one hit of a path is, and what is found there.
+struct Stop {
+    Color emission{0.0F};
+    Color light{0.0F};
+    Color weight{0.5F};
+    bool specular = false;
+    bool scatters = true;
+    bool front_face = true;
+};
+
+/// A path from stop to stop, all of them a unit apart along x. Behind the last one there is nothing, or the last one
+/// again and again.
+class PathOfStops final : public PathTracer {
+public:
+    explicit PathOfStops(std::vector<Stop> stops, const Color& background = k_black)
+        : stops_(std::move(stops)), background_(background) {}
+
+    bool endless = false;
+    mutable int rays = 0;
+    int light_samples = 0;
+    int scatters = 0;
+
+    [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
+        const std::size_t number = static_cast<std::size_t>(rays++);
+        if (stops_.empty() || rays > 10000 || (number >= stops_.size() && !endless)) {
+            return std::nullopt;
+        }
+        now_ = stops_[std::min(number, stops_.size() - 1)];
+        HitRecord hit = diffuse_hit(glm::vec3(-1.0F, 0.0F, 0.0F), k_white);
+        hit.position = ray.origin + ray.direction;
+        hit.ray_direction = ray.direction;
+        hit.fill.emission = now_.emission;
+        hit.front_face = now_.front_face;
+        return hit;
+    }
+
+    [[nodiscard]] Color light_sample(const HitRecord& /*hit*/) override {
+        ++light_samples;
+        return now_.light;
+    }
+
+    [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& /*hit*/) override {
+        ++scatters;
+        if (!now_.scatters) {
+            return std::nullopt;
+        }
+        return ScatterSample{.direction = glm::vec3(-1.0F, 0.0F, 0.0F),
+                             .weight = now_.weight,
+                             .pdf = 1.0F / k_pi,
+                             .specular = now_.specular};
+    }
+
+    [[nodiscard]] Color background() const override { return background_; }
+
+private:
+    std::vector<Stop> stops_;
+    Color background_;
+    mutable Stop now_;
+};
+
+Color light_along(PathOfStops& path, std::uint32_t number = 0) {
+    RandomStream random(test_seed(), number);
+    return path_light(path, Ray{glm::vec3(0.0F), glm::vec3(1.0F, 0.0F, 0.0F)}, random);
+}
+
+Color light_along(std::vector<Stop> stops, const Color& background = k_black) {
+    PathOfStops path(std::move(stops), background);
+    return light_along(path);
+}
+
+constexpr int k_many = 20000;
+
+/// Of many paths: mean light in red, and mean number of rays.
+struct Means {
+    double light = 0.0;
+    double rays = 0.0;
+};
+Means means_of(const std::vector<Stop>& stops, int count = k_many) {
+    Means means;
+    for (int number = 0; number < count; ++number) {
+        PathOfStops path(stops);
+        path.endless = true;
+        means.light += static_cast<double>(light_along(path, static_cast<std::uint32_t>(number)).x) / count;
+        means.rays += static_cast<double>(path.rays) / count;
+    }
+    return means;
+}
+
+const std::array<glm::vec3, 7> k_normals{glm::vec3(0.0F, 0.0F, 1.0F),   glm::vec3(0.0F, 0.0F, -1.0F),
+                                         glm::vec3(1.0F, 0.0F, 0.0F),   glm::vec3(-1.0F, 0.0F, 0.0F),
+                                         glm::vec3(0.0F, 1.0F, 0.0F),   glm::vec3(0.0F, -1.0F, 0.0F),
+                                         glm::vec3(0.48F, -0.64F, 0.6F)};
+
+}  // namespace
+
+TEST_CASE("cosine_direction: unit length, on the side of the normal", "[13-path-tracing][cosine_direction]") {
+    RandomStream random(test_seed());
+    for (const glm::vec3& normal : k_normals) {
+        CAPTURE(text(normal));
+        for (int i = 0; i < 500; ++i) {
+            const glm::vec2 u = random.next_2d();
+            CAPTURE(u.x, u.y);
+            const glm::vec3 direction = cosine_direction(normal, u);
+            REQUIRE_THAT(direction, IsUnitLength());
+            REQUIRE(glm::dot(direction, normal) >= -1e-4F);
+        }
+    }
+}
+
+TEST_CASE("cosine_direction: at the corners of the square, too", "[13-path-tracing][cosine_direction]") {
+    const float last = std::nextafter(1.0F, 0.0F);
+    for (const glm::vec3& normal : k_normals) {
+        for (const glm::vec2& u : {glm::vec2(0.0F, 0.0F), glm::vec2(last, 0.0F), glm::vec2(0.0F, last),
+                                   glm::vec2(last, last), glm::vec2(0.5F, 0.5F)}) {
+            CAPTURE(text(normal), u.x, u.y);
+            const glm::vec3 direction = cosine_direction(normal, u);
+            CHECK_THAT(direction, IsUnitLength());
+            CHECK(glm::dot(direction, normal) >= -1e-4F);
+        }
+    }
+}
+
+TEST_CASE("cosine_direction: steep ones come more often", "[13-path-tracing][cosine_direction]") {
+    for (const glm::vec3& normal : k_normals) {
+        CAPTURE(text(normal));
+        RandomStream random(test_seed());
+        double cosines = 0.0;
+        double steep = 0.0;
+        glm::dvec3 sum(0.0);
+        for (int i = 0; i < k_many; ++i) {
+            const glm::vec3 direction = cosine_direction(normal, random.next_2d());
+            const double cosine = static_cast<double>(glm::dot(direction, normal));
+            cosines += cosine / k_many;
+            steep += (cosine > std::sqrt(0.5) ? 1.0 : 0.0) / k_many;
+            sum += glm::dvec3(direction) / double{k_many};
+        }
+        // Seven standard deviations of each mean.
+        INFO("the mean cosine is 2/3; 1/2 is what directions have that are all equally likely");
+        CHECK(cosines == about(2.0 / 3.0, 0.012));
+        INFO("half of them lie within 45 degrees of the normal");
+        CHECK(steep == about(0.5, 0.025));
+        INFO("their mean points along the normal: no side is preferred");
+        CHECK_THAT(glm::vec3(sum), IsNear(normal * (2.0F / 3.0F), 0.03F));
+    }
+}
+
+TEST_CASE("cosine_direction: the same u gives the same direction", "[13-path-tracing][cosine_direction]") {
+    const glm::vec2 u(0.37F, 0.81F);
+    const glm::vec3 direction = cosine_direction(k_normals[6], u);
+    CHECK(direction == cosine_direction(k_normals[6], u));
+    CHECK(direction != cosine_direction(k_normals[6], glm::vec2(0.12F, 0.4F)));
+}
+
+TEST_CASE("cosine_pdf: the cosine over pi, nothing below", "[13-path-tracing][cosine_pdf]") {
+    const glm::vec3 up(0.0F, 1.0F, 0.0F);
+    CHECK(cosine_pdf(up, up) == about(0.318310));
+    CHECK(cosine_pdf(up, glm::vec3(0.0F, 0.6F, 0.8F)) == about(0.190986));
+    CHECK(cosine_pdf(up, glm::vec3(1.0F, 0.0F, 0.0F)) == about(0.0));
+    INFO("below the surface");
+    CHECK(cosine_pdf(up, glm::vec3(0.0F, -0.6F, 0.8F)) == 0.0F);
+}
+
+TEST_CASE("cosine_pdf: over all directions it adds up to 1", "[13-path-tracing][cosine_pdf]") {
+    Random random;
+    INFO(random);
+    double sum = 0.0;
+    for (int i = 0; i < k_many; ++i) {
+        sum += static_cast<double>(cosine_pdf(k_normals[6], random.unit_vector()));
+    }
+    CHECK(4.0 * static_cast<double>(k_pi) * sum / k_many == about(1.0, 0.08));
+}
+
+TEST_CASE("scatter_diffuse: weight and pdf belong to the direction", "[13-path-tracing][scatter_diffuse]") {
+    RandomStream random(test_seed());
+    for (const glm::vec3& normal : k_normals) {
+        const HitRecord hit = diffuse_hit(normal, Color(0.8F, 0.4F, 0.2F), 0.5F);
+        for (int i = 0; i < 50; ++i) {
+            const std::optional<ScatterSample> sample = scatter_diffuse(hit, random.next_2d());
+            REQUIRE(sample.has_value());
+            CAPTURE(text(normal), text(sample->direction));
+            REQUIRE_THAT(sample->direction, IsUnitLength());
+            const float cosine = glm::dot(sample->direction, normal);
+            REQUIRE(cosine >= -1e-4F);
+            INFO("pdf: cos / pi");
+            REQUIRE(sample->pdf == about(static_cast<double>(cosine / k_pi), 1e-3));
+            INFO("weight: (kd color / pi) * cos / pdf");
+            REQUIRE_THAT(sample->weight, IsNear(Color(0.4F, 0.2F, 0.1F)));
+            REQUIRE_FALSE(sample->specular);
+        }
+    }
+}
+
+TEST_CASE("scatter_diffuse: nothing from a black surface", "[13-path-tracing][scatter_diffuse]") {
+    const glm::vec2 u(0.3F, 0.6F);
+    CHECK_FALSE(scatter_diffuse(diffuse_hit(k_normals[0], k_black), u).has_value());
+    CHECK_FALSE(scatter_diffuse(diffuse_hit(k_normals[0], k_white, 0.0F), u).has_value());
+    INFO("one channel is enough");
+    CHECK(scatter_diffuse(diffuse_hit(k_normals[0], Color(0.0F, 0.0F, 0.3F)), u).has_value());
+}
+
+TEST_CASE("scatter_diffuse: the handout's worked example", "[13-path-tracing][scatter_diffuse]") {
+    const HitRecord hit = diffuse_hit(glm::vec3(0.0F, 1.0F, 0.0F), Color(0.9F, 0.5F, 0.1F), 0.8F);
+    const std::optional<ScatterSample> sample = scatter_diffuse(hit, glm::vec2(0.36F, 0.25F));
+    REQUIRE(sample.has_value());
+    CHECK_THAT(sample->weight, IsNear(Color(0.72F, 0.4F, 0.08F)));
+}
+
+TEST_CASE("survival_probability: the largest channel, at most 0.95", "[13-path-tracing][survival_probability]") {
+    CHECK(survival_probability(Color(0.2F, 0.7F, 0.1F)) == about(0.7));
+    CHECK(survival_probability(Color(0.6F, 0.1F, 0.2F)) == about(0.6));
+    CHECK(survival_probability(Color(0.1F, 0.2F, 0.3F)) == about(0.3));
+    CHECK(survival_probability(Color(0.001F)) == about(0.001, 1e-5));
+    INFO("no path is certain to go on");
+    CHECK(survival_probability(k_white) == about(0.95));
+    CHECK(survival_probability(Color(3.0F, 0.2F, 0.2F)) == about(0.95));
+    CHECK(survival_probability(k_black) == 0.0F);
+}
+
+TEST_CASE("path_light: a ray that meets nothing brings the background", "[13-path-tracing][path_light]") {
+    CHECK_THAT(light_along({}, Color(0.1F, 0.2F, 0.3F)), IsNear(Color(0.1F, 0.2F, 0.3F)));
+    INFO("behind a surface it counts times the weight");
+    CHECK_THAT(light_along({Stop{.weight = Color(0.5F, 0.25F, 1.0F)}}, Color(0.4F)), IsNear(Color(0.2F, 0.1F, 0.4F)));
+}
+
+TEST_CASE("path_light: a lamp that the eye sees", "[13-path-tracing][path_light]") {
+    CHECK_THAT(light_along({Stop{.emission = Color(3.0F, 2.0F, 1.0F), .scatters = false}}),
+               IsNear(Color(3.0F, 2.0F, 1.0F)));
+    INFO("not from behind");
+    CHECK_THAT(light_along({Stop{.emission = Color(3.0F), .scatters = false, .front_face = false}}), IsNear(k_black));
+}
+
+TEST_CASE("path_light: each hit's light sample counts times the weight", "[13-path-tracing][path_light]") {
+    const std::vector<Stop> stops{{.light = Color(0.3F), .weight = Color(0.5F)},
+                                  {.light = Color(0.4F), .weight = Color(0.25F)},
+                                  {.light = Color(0.8F), .scatters = false}};
+    PathOfStops path(stops);
+    INFO("0.3 + 0.5 * 0.4 + 0.5 * 0.25 * 0.8");
+    CHECK_THAT(light_along(path), IsNear(Color(0.6F)));
+    CHECK(path.rays == 3);
+    CHECK(path.light_samples == 3);
+    CHECK(path.scatters == 3);
+}
+
+TEST_CASE("path_light: behind a diffuse bounce a lamp is not counted again", "[13-path-tracing][path_light]") {
+    INFO("its light has come with the light sample of the hit before");
+    CHECK_THAT(light_along({Stop{.light = Color(0.2F)}, Stop{.emission = Color(10.0F), .scatters = false}}),
+               IsNear(Color(0.2F)));
+    INFO("behind a mirror nothing else brings it");
+    CHECK_THAT(light_along({Stop{.specular = true}, Stop{.emission = Color(10.0F), .scatters = false}}),
+               IsNear(Color(5.0F)));
+    INFO("it is the last bounce that matters");
+    CHECK_THAT(light_along({Stop{.specular = true}, Stop{}, Stop{.emission = Color(10.0F), .scatters = false}}),
+               IsNear(k_black));
+    CHECK_THAT(light_along({Stop{}, Stop{.specular = true}, Stop{.emission = Color(10.0F), .scatters = false}}),
+               IsNear(Color(2.5F)));
+}
+
+TEST_CASE("path_light: the handout's worked example", "[13-path-tracing][path_light]") {
+    const std::vector<Stop> stops{{.light = Color(0.2F, 0.2F, 0.2F), .weight = Color(0.8F, 0.8F, 0.8F)},
+                                  {.light = Color(0.5F, 0.1F, 0.1F), .weight = Color(0.6F, 0.1F, 0.1F)},
+                                  {.emission = Color(15.0F), .scatters = false}};
+    CHECK_THAT(light_along(stops), IsNear(Color(0.6F, 0.28F, 0.28F)));
+}
+
+TEST_CASE("path_light: three bounces are sure", "[13-path-tracing][path_light]") {
+    for (std::uint32_t number = 0; number < 200; ++number) {
+        PathOfStops path({Stop{.weight = Color(0.1F)}, Stop{.weight = Color(0.1F)}, Stop{.weight = Color(0.1F)},
+                          Stop{.light = Color(1.0F), .scatters = false}});
+        CAPTURE(number);
+        REQUIRE(light_along(path, number).x == about(0.001, 1e-5));
+    }
+}
+
+TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracing][path_light]") {
+    INFO("walls that send half of the light on, 1 from the lamps at each: 1 + 1/2 + 1/4 + ... = 2");
+    const Means half = means_of({Stop{.light = k_white, .weight = Color(0.5F)}});
+    CHECK(half.light == about(2.0, 0.035));
+    INFO("a path has about 4.2 rays: roulette is played from the fourth bounce on");
+    CHECK(half.rays == about(4.125, 0.06));
+    INFO("walls that send four fifths on: 5");
+    const Means bright = means_of({Stop{.light = k_white, .weight = Color(0.8F)}});
+    CHECK(bright.light == about(5.0, 0.045));
+    CHECK(bright.rays < 8.0);
+}
