@@ -58,7 +58,7 @@ public:
             sum += one;
             squares += one * one;
         }
-        const glm::dvec3 variance = (squares - sum * sum / double{k_batches}) * double{k_batches};
+        const glm::dvec3 variance = squares - sum * sum / double{k_batches};  // of the sum
         const double largest = std::max({std::abs(sum.x), std::abs(sum.y), std::abs(sum.z)});
         return std::sqrt(std::max({variance.x, variance.y, variance.z, 0.0})) / largest;
     }

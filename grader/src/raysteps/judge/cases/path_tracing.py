@@ -503,18 +503,18 @@ def _furnace(draw: RandomSource, low: float, high: float) -> PathScript:
 
 
 def _late(draw: RandomSource) -> PathScript:
-    """All light is found behind six or seven bounces."""
+    """All light is found behind twelve bounces: roulette has taken some of the paths, and those left count more."""
     dark = [
         PathHit(
             i + 1 + draw.real(0.1, 0.8),
             draw.direction(),
             _BLACK,
             _BLACK,
-            Scatter(draw.direction(), _gray(draw, 0.85, 0.99)),
+            Scatter(draw.direction(), _gray(draw, 0.93, 0.99)),
         )
-        for i in range(draw.whole(6, 7))
+        for i in range(12)
     ]
-    last = PathHit(9.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
+    last = PathHit(14.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
     return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
 
 
@@ -552,11 +552,11 @@ _PATH_LIGHT = Function(
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "e", "x"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", ""), ("", "s", ""), background=True)),
         Group("a very bright lamp", _bright),
-        Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.03)),
+        Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.02)),
         Group("bright walls", lambda d: _often(d, _furnace(d, 0.75, 0.8), 0.06)),
-        Group("light found late", lambda d: _often(d, _late(d), 0.06)),
-        Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.06)),
-        Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.05)),
+        Group("light found late", lambda d: _often(d, _late(d), 0.2)),
+        Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.08)),
+        Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.08)),
     ),
 )
 
