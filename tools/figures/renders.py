@@ -24,6 +24,7 @@ from tools.xvfb import NoScreen, hidden_screen
 
 _MAX_APART = 2.0  # of 255, on average: another compiler moves a few pixels
 _SMALL = ("--size", "240x180")
+_SQUARE = ("--size", "240x240")
 _TILE, _GAP, _LETTERS = 236, 6, 18
 _PAPER, _INK = (26, 27, 30), (235, 235, 235)
 
@@ -34,6 +35,7 @@ class Shot:
 
     scene: str
     args: tuple[str, ...]
+    size: tuple[str, str] = _SMALL
 
     @property
     def file(self) -> str:
@@ -41,7 +43,7 @@ class Shot:
         return self.scene if "." in self.scene else f"{self.scene}.nff"
 
     def pixels(self, kit: BuiltKit) -> Pixels:
-        return reference_picture(kit, kit.project.scenes / self.file, (*self.args, *_SMALL))
+        return reference_picture(kit, kit.project.scenes / self.file, (*self.args, *self.size))
 
 
 def _lesson(name: str, *args: str) -> Shot:
@@ -69,6 +71,8 @@ SHOTS = {
     "11-after": Shot("generated/vase.pbrt", ("--step", "11")),
     "12-after": Shot("lessons/soft-shadows.pbrt", ("--step", "12", "--samples", "256")),
     "12-focus": Shot("lessons/lens.pbrt", ("--step", "12", "--samples", "256")),
+    "13-before": Shot("lessons/cornell.pbrt", ("--step", "12", "--samples", "64"), _SQUARE),
+    "13-after": Shot("lessons/cornell.pbrt", ("--step", "13", "--samples", "256"), _SQUARE),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
 

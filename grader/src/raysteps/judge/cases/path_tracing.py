@@ -552,7 +552,7 @@ _PATH_LIGHT = Function(
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "e", "x"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", ""), ("", "s", ""), background=True)),
         Group("a very bright lamp", _bright),
-        Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.02)),
+        Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: _often(d, _furnace(d, 0.75, 0.8), 0.06)),
         Group("light found late", lambda d: _often(d, _late(d), 0.2)),
         Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.08)),
