@@ -121,7 +121,7 @@ export class Inside {
   async #module(built) {
     if (!built.module) {
       const { step, sources } = built;
-      const { program, stopped } = await this.#compiler.build(step.number, sources, LINK_SECONDS, true);
+      const { program, stopped } = await this.#compiler.build(step.number, sources, LINK_SECONDS, { inspects: true });
       if (!program) {
         throw new Error(stopped ?? "the linker refuses it");
       }
