@@ -74,12 +74,12 @@ def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, ste
 
 _PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
 <script type="module" src="check.js"></script>"""
-_CHECK = """import { linkerWords, readReport } from "./report.js";
+_CHECK = """import { linkerWords, printedIn, readReport } from "./report.js";
 import { compare, readPpm } from "./pictures.js";
 import { firstIncludes } from "./includes.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
 const judge = (mine, reference, most) => compare(picture(mine), picture(reference), most);
-window.checks = { linkerWords, readReport, firstIncludes, judge };
+window.checks = { linkerWords, printedIn, readReport, firstIncludes, judge };
 """
 
 
@@ -216,6 +216,9 @@ def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server
             }
             assert one["failure"] == failure
     assert page.evaluate("checks.readReport('<Catch2TestRun><TestCase/></Catch2TestRun>')") is None
+    streams = "<StdOut>\nat 1 &lt; 2\n</StdOut><StdErr>x</StdErr>"
+    printed = f"<Catch><TestCase><OverallResult>{streams}</OverallResult></TestCase></Catch>"
+    assert page.evaluate("text => checks.printedIn(text)", printed) == "at 1 < 2\nx"
     assert page.evaluate("checks.readReport('<Catch2TestRun>')") is None
 
 

@@ -188,12 +188,19 @@ def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, st
 
     throws = "#include <stdexcept>\n" + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
     save(page, throws)
+    _says(page, r"Compiling what you include")
     _says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("threw: oh no")
     deep = "return distance > 1e9F ? ray.origin : point_at(ray, distance + 1.0F) + ray.origin;"
     save(page, solved["01-camera-rays"].replace(_POINT, deep))
     _says(page, r"11 of 12 tests pass")
-    expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed")
+    expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed (")
+    expect(page.locator("#play-tests .panel")).to_contain_text("a recursion without an end).")
+    told = f'std::puts("at 42"); std::fputs("at 43", stderr); {_POINT}'
+    save(page, throws.replace('throw std::runtime_error("oh no");', told))
+    _says(page, r"Step 01 is right", timeout=STARTED)
+    page.get_by_text("What the programs print").click()
+    expect(page.locator("#play-console")).to_have_text(re.compile(r"at 42\s+at 43"))
 
 
 def _begin_again(page: "Page") -> None:

@@ -19,7 +19,7 @@ from raysteps.inspector.records import (
     point,
     surface_name,
 )
-from raysteps.report.page import PictureData, render_page
+from raysteps.report.page import SPACE_SCRIPTS, PictureData, render_page
 
 # A record as the lines of a tree, each with a key, so that two trees can stand side by side.
 
@@ -237,16 +237,6 @@ def page_ray(ray: Ray, surfaces: int, key: Key = ("eye",)) -> PageRay:
 
 
 # The page.
-
-SPACE_SCRIPTS = (
-    "space-vectors",
-    "space-shapes",
-    "space-painter",
-    "space-orbit",
-    "inspect-record",
-    "inspect-space",
-    "inspect",
-)
 
 
 def _parts_at(tree: PageRay, divergence: Difference | None) -> str:

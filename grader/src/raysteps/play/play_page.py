@@ -24,11 +24,10 @@ from raysteps.grading.build_messages import missing_message, twice_message, unde
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.render import ENDLESS, reference_image_path
-from raysteps.inspector.pixel_page import SPACE_SCRIPTS
 from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
-from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
+from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
 from raysteps.report.wording import inspect_options
 
 Say = Callable[[str], None]

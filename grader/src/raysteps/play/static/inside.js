@@ -10,7 +10,7 @@ const LABEL_WIDTH = 12; // of the column in which some lines begin
 const LABEL = /^[A-Za-z]+(?: \w+)* {2,}$|^transmitted |^tone mapping|^for a screen/;
 
 /** Lines with an indentation as `{text, label, below}`; a line that goes on with the one before stands below it. */
-export function nested(lines) {
+function nested(lines) {
   const top = { level: -1, below: [] };
   const path = [top];
   for (const line of lines) {
@@ -121,7 +121,7 @@ export class Inside {
   async #module(built) {
     if (!built.module) {
       const { step, sources } = built;
-      const { program, stopped } = await this.#compiler.build(step.number, sources, LINK_SECONDS, true);
+      const { program, stopped } = await this.#compiler.build(step.number, sources, LINK_SECONDS, { inspects: true });
       if (!program) {
         throw new Error(stopped ?? "the linker refuses it");
       }
@@ -149,6 +149,9 @@ export class Inside {
         wanted: [RECORD],
       };
       const ran = await this.#runner.run(task, built.step.seconds);
+      if (!dialog.open) {
+        return; // nobody waits for it
+      }
       if (ran.code === 0) {
         this.#show(body, ran.stdout, JSON.parse(new TextDecoder().decode(ran.made[RECORD])));
       }
@@ -163,7 +166,11 @@ export class Inside {
   /** The words are those of `./raysteps inspect`, behind whatever the steps have printed. */
   #show(body, said, record) {
     const { x, y } = record.pixel;
-    const text = said.slice(said.lastIndexOf(`pixel (${x}, ${y}) of `)).trimEnd();
+    const start = said.lastIndexOf(`pixel (${x}, ${y}) of `);
+    if (start < 0) {
+      throw new Error("your functions print so much that no more is kept");
+    }
+    const text = said.slice(start).trimEnd();
     const [head, rays, end] = text.split("\n\n").map((part) => nested(part.split("\n")));
     const tree = new RayTree(record);
     const elements = (lines) => lines.map((line) => tree.element(line));

@@ -7,7 +7,7 @@ import { Inside } from "./inside.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Compiler, Runner, whyNothing } from "./programs.js";
 import { openTexts, textLink } from "./reading.js";
-import { linkerWords, readReport } from "./report.js";
+import { linkerWords, printedIn, readReport } from "./report.js";
 import { Turn, textsIn, Work, zipOf } from "./work.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -493,7 +493,9 @@ class Page {
         return; // or else its job would end the one of a newer run
       }
       this.#say("busy", "Compiling ...");
-      const built = await this.#compiler.build(step.number, sources, COMPILE_SECONDS);
+      const onHeaders = () =>
+        run === this.#run && this.#say("busy", "Compiling what you include (once, some seconds) ...");
+      const built = await this.#compiler.build(step.number, sources, COMPILE_SECONDS, { onHeaders });
       if (run !== this.#run) {
         return;
       }
@@ -567,7 +569,7 @@ class Page {
   }
 
   #print(ran) {
-    const text = `${ran.stderr ?? ""}`.trim();
+    const text = `${ran.stdout ?? ""}\n${ran.stderr ?? ""}`.trim();
     if (text) {
       const room = element("play-console");
       const lines = new Set(`${room.textContent}\n${text}`.split("\n").filter(Boolean));
@@ -582,7 +584,8 @@ class Page {
     const task = { module, files: {}, wanted: ["/out/report.xml"] };
     let limit = step.seconds;
     const ask = (more = []) => this.#tester.run({ ...task, words: [...words, ...more] }, limit);
-    const reportOf = (ran) => readReport(new TextDecoder().decode(ran.made?.["/out/report.xml"] ?? new Uint8Array()));
+    const textOf = (ran) => new TextDecoder().decode(ran.made?.["/out/report.xml"] ?? new Uint8Array());
+    const reportOf = (ran) => readReport(textOf(ran));
     const together = await ask();
     limit /= together.stopped ? AFTER_A_STOP : 1;
     let results = together.code === undefined ? null : reportOf(together);
@@ -599,7 +602,7 @@ class Page {
       }
     }
     if (current()) {
-      this.#print(together);
+      this.#print({ ...together, stdout: `${together.stdout ?? ""}\n${printedIn(textOf(together))}` });
       this.#tellTests(step, results);
     }
     return results;
