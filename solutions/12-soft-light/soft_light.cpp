@@ -9,7 +9,7 @@
 
 namespace raysteps {
 
-constexpr float k_pi = std::numbers::pi_v<float>;
+[[maybe_unused]] constexpr float k_pi = std::numbers::pi_v<float>;
 
 glm::vec3 turned_to(const glm::vec3& normal, const glm::vec3& vector) {
     // BEGIN SOLUTION turned_to

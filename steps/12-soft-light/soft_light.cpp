@@ -9,7 +9,7 @@
 
 namespace raysteps {
 
-constexpr float k_pi = std::numbers::pi_v<float>;
+[[maybe_unused]] constexpr float k_pi = std::numbers::pi_v<float>;
 
 glm::vec3 turned_to(const glm::vec3& normal, const glm::vec3& vector) {
     // TODO: Find two unit vectors at right angles to the normal and to each other; they take x and y.

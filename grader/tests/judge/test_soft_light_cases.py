@@ -97,6 +97,12 @@ def test_densities_are_told_by_how_they_are_wrong(wrong: dict[str, float], said:
     assert _problem(function, inputs, _triangle_samples(inputs, u, **wrong)) == said
 
 
+def test_one_point_for_all_is_no_sample() -> None:
+    inputs = _inputs("sample_triangle", "a few samples")
+    rows = _triangle_samples(inputs, np.full((8, 2), 0.5))
+    assert _problem(_FUNCTIONS["sample_triangle"], inputs, rows) == "different u give the same point"
+
+
 def test_a_wrong_density_leaves_right_points_a_part_of_their_credit() -> None:
     inputs = _inputs("sample_triangle", "a few samples")
     rows = _triangle_samples(inputs, np.random.default_rng(3).random((8, 2)), factor=0.5)
