@@ -57,7 +57,7 @@ def write_reference_image(kit: BuiltKit, project: Project, step: Step, case: Ima
     scene = kit.project.root / case.scene
     write_png(shown_reference(kit, scene, case), path)
     if case.max_noise is not None:
-        write_bytes(path.with_suffix(_ESTIMATES), bytes_of(reference_parts(kit, scene, case)))
+        write_bytes(path.with_suffix(ESTIMATES), bytes_of(reference_parts(kit, scene, case)))
     work = reference_work(kit, scene, case.args) if case.max_share is not None else None
     write_json(
         path.with_suffix(".json"),
@@ -120,14 +120,14 @@ def _stored_for_nothing(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> fl
 
 
 def _stored_parts(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Estimates:
-    path = _find(kit, scene, args).path.with_suffix(_ESTIMATES)
+    path = _find(kit, scene, args).path.with_suffix(ESTIMATES)
     try:
         return read_estimates(path.read_bytes())
     except (OSError, EstimatesError) as error:
         raise UsageError(f"{path}: cannot be read; {_AGAIN}") from error
 
 
-_ESTIMATES = ".estimates"
+ESTIMATES = ".estimates"
 _REFERENCE_SECONDS = 600
 _MAX_STATS = 1 << 16  # bytes; raytrace writes some hundred
 _MAX_SHARE = 1e6  # of the scene that a ray is tested against; more than 1 where a surface stands in many boxes
@@ -194,7 +194,7 @@ def _stats_beside(picture: Path) -> Path:
 def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool = False) -> Path:
     """The reference's picture, rendered at the first call; a reference that cannot is the kit's fault."""
     path = _kept(kit, scene, args)
-    beside = [_stats_beside(path), *([path.with_suffix(_ESTIMATES)] if estimates else [])]
+    beside = [_stats_beside(path), *([path.with_suffix(ESTIMATES)] if estimates else [])]
     if path.is_file() and all(file.is_file() for file in beside):
         return path
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -248,7 +248,7 @@ def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estim
     if not kit.has_reference:
         return _stored_parts(kit, scene, gate.args)
     path = _drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
-    return read_estimates(path.with_suffix(_ESTIMATES).read_bytes()).in_parts()
+    return read_estimates(path.with_suffix(ESTIMATES).read_bytes()).in_parts()
 
 
 def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> Comparison:

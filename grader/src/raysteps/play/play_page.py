@@ -13,6 +13,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from raysteps.common.errors import UsageError
 from raysteps.common.files import new_or_empty_folder, one_at_a_time, write_bytes
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
@@ -23,7 +25,8 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import missing_message, twice_message, undefined_message
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
-from raysteps.images.render import ENDLESS, reference_image_path
+from raysteps.images.noise import read_estimates, with_samples
+from raysteps.images.render import ENDLESS, ESTIMATES, reference_image_path
 from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
@@ -300,7 +303,8 @@ class PlayPage:
         scene = self._project.root / case.scene
         name = f"pictures/{step.number}/{case.name}.png"
         if self._project.has_reference:
-            made = self._kit.picture(scene, args)
+            noisy = case.max_noise is not None
+            made = self._kit.picture(scene, with_samples(tuple(args), case.more_samples) if noisy else args)
             picture = made.with_suffix(".png")
             if not picture.is_file():
                 write_png(parse_ppm(made.read_bytes()), picture)
@@ -317,8 +321,23 @@ class PlayPage:
             "width": width,
             "height": height,
             "maxWrong": case.max_wrong,
+            "noise": self._noise(step, case, scene, (width, height)),
             "maxShare": case.max_share,
         }
+
+    def _noise(self, step: Step, case: ImageCase, scene: Path, size: tuple[int, int]) -> dict[str, Any] | None:
+        """What noise.js compares a noisy picture with."""
+        if case.max_noise is None:
+            return None
+        if self._project.has_reference:
+            args = with_samples(case.args, case.more_samples)
+            parts = read_estimates(self._kit.estimates(scene, args).read_bytes()).in_parts()
+        else:
+            parts = read_estimates(reference_image_path(self._project, step, case).with_suffix(ESTIMATES).read_bytes())
+        rows = np.concatenate([parts.mean, parts.variance], axis=2).reshape(-1, 6)
+        width, height = size
+        numbers = [[float(f"{number:.7g}") for number in row] for row in rows]
+        return {"width": width, "height": height, "most": case.max_noise, "factor": case.more_samples, "parts": numbers}
 
 
 # Published, on any web space.

@@ -362,15 +362,15 @@ class WebKit:
                 write_bytes(target, (Path(folder) / "made").read_bytes())
         return target
 
-    def _ran(self, step: Step, words: Sequence[str], made: str, scene: Path | None = None) -> Path:
-        """The file that the reference's program makes."""
+    def _ran(self, step: Step, words: Sequence[str], made: str, scene: Path | None = None, option: str = "-o") -> Path:
+        """The file that the reference's program makes, by that option."""
         program = self._program(step)
         content = "" if scene is None else scene.read_text("utf-8")
         target = self._kept(made, program.name, *words, content)
         if not target.is_file():
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
                 (Path(folder) / "scene.nff").write_text(content, encoding="utf-8")
-                said = self._clang.program(program, [*words, "-o", f"{_WORK}/{made}"], {_WORK: Path(folder)})
+                said = self._clang.program(program, [*words, option, f"{_WORK}/{made}"], {_WORK: Path(folder)})
                 if said.code != 0:
                     raise GraderFault(f"the reference fails in the page's program: {said.stderr.strip()}")
                 write_bytes(target, (Path(folder) / made).read_bytes())
@@ -389,3 +389,8 @@ class WebKit:
         """The reference's, as raytrace writes it."""
         words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet"]
         return self._ran(self.steps[0], words, "ppm", scene)
+
+    def estimates(self, scene: Path, args: Sequence[str]) -> Path:
+        """Of the same picture, with `--estimates`."""
+        words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet", "-o", f"{_WORK}/picture.ppm"]
+        return self._ran(self.steps[0], words, "estimates", scene, "--estimates")

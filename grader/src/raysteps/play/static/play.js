@@ -4,6 +4,7 @@ import { Editor } from "./editor.js";
 import { Figures } from "./figures.js";
 import { DiskFolder } from "./folder.js";
 import { Inside } from "./inside.js";
+import { compareEstimates, readEstimates } from "./noise.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Compiler, Runner, whyNothing } from "./programs.js";
 import { openTexts, textLink } from "./reading.js";
@@ -13,6 +14,7 @@ import { Turn, textsIn, Work, zipOf } from "./work.js";
 const data = JSON.parse(document.getElementById("data").textContent);
 const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
+const ESTIMATES = ["--estimates", "/out/estimates"]; // of a noisy picture
 const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
 const SOON = 3000; // milliseconds until a service worker is there, or the page begins without it
@@ -668,9 +670,9 @@ class Page {
       const shown = this.#frame(picture);
       const task = {
         module,
-        words: ["raytrace", "/scene.nff", ...picture.args, ...data.words.raytrace],
+        words: ["raytrace", "/scene.nff", ...picture.args, ...data.words.raytrace, ...(picture.noise ? ESTIMATES : [])],
         files: { "/scene.nff": await this.#fileOf(picture.scene) },
-        wanted: ["/out/picture.ppm", "/out/stats.json"],
+        wanted: ["/out/picture.ppm", "/out/stats.json", "/out/estimates"],
       };
       if (!current()) {
         return [];
@@ -742,9 +744,12 @@ class Page {
     const bytes = ran.code === 0 ? ran.made["/out/picture.ppm"] : null;
     const mine = bytes ? readPpm(bytes) : null;
     const reference = await readImage(picture.reference);
-    const verdict = mine
-      ? compare(mine, reference, picture.maxWrong)
-      : { passed: false, message: whyNothing(ran, "The picture", data.words.endless) };
+    const estimates = mine && picture.noise ? readEstimates(ran.made["/out/estimates"]) : null;
+    const verdict = estimates
+      ? compareEstimates(estimates, picture.noise)
+      : mine
+        ? compare(mine, reference, picture.maxWrong)
+        : { passed: false, message: whyNothing(ran, "The picture", data.words.endless) };
     const stats = ran.made?.["/out/stats.json"];
     if (verdict.passed && picture.maxShare !== null && stats) {
       const { share_tested: share } = JSON.parse(new TextDecoder().decode(stats));
