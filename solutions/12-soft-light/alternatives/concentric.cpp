@@ -1,5 +1,5 @@
-// The mapping of Shirley and Chiu, a basis without a root (Duff et al. 2017), triangles by folding the square, spheres by
-// their quadratic equation.
+// The mapping of Shirley and Chiu, a basis without a root (Duff et al. 2017), triangles by folding the square, spheres
+// by their quadratic equation.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -15,8 +15,8 @@ namespace {
 
 Vec turned(const Vec& z, const Vec& vector) {
     const Vec smallest = std::abs(z.x) <= std::abs(z.y) && std::abs(z.x) <= std::abs(z.z) ? Vec(1, 0, 0)
-                         : std::abs(z.y) <= std::abs(z.z)                                ? Vec(0, 1, 0)
-                                                                                         : Vec(0, 0, 1);
+                         : std::abs(z.y) <= std::abs(z.z)                                 ? Vec(0, 1, 0)
+                                                                                          : Vec(0, 0, 1);
     const Vec x = glm::normalize(smallest - glm::dot(smallest, z) * z);  // Gram and Schmidt
     const Vec y = glm::cross(z, x);
     return x * vector.x + y * vector.y + z * vector.z;
@@ -102,9 +102,8 @@ LightSample sample_sphere(const SphereLight& light, const glm::vec3& from, const
 Color sampled_light(const HitRecord& hit, const Color& radiance, const LightSample& sample) {
     const Vec way = glm::normalize(Vec(sample.position) - Vec(hit.position));
     const double cosine = std::max(0.0, glm::dot(way, Vec(hit.normal)));
-    const double share = sample.pdf > 0.0F
-                             ? static_cast<double>(hit.fill.kd) * cosine / (k_pi * static_cast<double>(sample.pdf))
-                             : 0.0;
+    const double share =
+        sample.pdf > 0.0F ? static_cast<double>(hit.fill.kd) * cosine / (k_pi * static_cast<double>(sample.pdf)) : 0.0;
     return Color(share * glm::dvec3(hit.fill.color) * glm::dvec3(radiance));
 }
 

@@ -50,8 +50,7 @@ LightSample sample_triangle(const TriangleLight& light, const glm::vec3& from, c
     } else {
         weights.x -= offset;
     }
-    const glm::vec3 position =
-        weights.x * light.a + weights.y * light.b + (1.0F - weights.x - weights.y) * light.c;
+    const glm::vec3 position = weights.x * light.a + weights.y * light.b + (1.0F - weights.x - weights.y) * light.c;
     const glm::vec3 across = glm::cross(light.c - light.b, light.a - light.b);
     const glm::vec3 normal = glm::normalize(across);
     return {position, normal, solid_angle_pdf(2.0F / glm::length(across), from, position, normal)};

@@ -9,7 +9,7 @@
 
 namespace raysteps {
 
-constexpr float k_pi = std::numbers::pi_v<float>;
+[[maybe_unused]] constexpr float k_pi = std::numbers::pi_v<float>;
 
 glm::vec3 turned_to(const glm::vec3& normal, const glm::vec3& vector) {
     const glm::vec3 across = std::abs(normal.x) < 0.5F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);

@@ -124,9 +124,11 @@ _TRIANGLE = _Places(
 
 
 def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
-    """The corners of the unit square are even nowhere, and a few points are not enough to tell."""
-    if _whole(inputs, "seed") == 0 or len(shares) < _MANY:
+    """The corners of the unit square are even nowhere; of a few points no more can be told than that they differ."""
+    if _whole(inputs, "seed") == 0:
         return ""
+    if len(shares) < _MANY:
+        return "" if 2 * len(np.unique(shares, axis=0)) > len(shares) else "different u give the same point"
     bins = 32 if len(shares) >= _VERY_MANY else 8
     along, around = shares[:, 0], shares[:, 1]
     deviation = math.sqrt(1 / 12)
