@@ -1,5 +1,5 @@
-"""Steps 10, 12 and 13: where samples lie, in a pixel and on lamps, what they are worth,
-and what a screen is sent; where paths go."""
+"""Steps 10, 12 and 13: where samples lie, in a pixel and on lamps, what they are worth, what a screen is sent, and
+where paths go."""
 
 import math
 
@@ -146,9 +146,9 @@ def disk() -> Drawing:
         640,
         250,
         "300 points of a disk",
-        "Two disks with 300 points each, and a dashed circle at half of the radius. Where the radius is a random "
-        "number, half of the points crowd within that circle. Where it is the root of one, a quarter of them do, and "
-        "points lie evenly.",
+        "Two disks with 300 points each, and a dashed circle at half of the radius. Where the radius is a random"
+        " number, half of the points crowd within that circle. Where it is the root of one, a quarter of them do, and"
+        " points lie evenly.",
     )
     draw = np.random.default_rng(_SEED)
     numbers = draw.random((300, 2))
