@@ -525,7 +525,7 @@ private:
                 face.at(i).uv = place_in_texture(mesh.uvs.empty() ? glm::vec2(i == 1, i == 2) : mesh.uvs[corner]);
             }
             if (shines()) {
-                light_up(face, mesh.normals.empty() && state_.reversed);
+                light_up(face, state_.reversed);
             }
             scene_.add(std::make_unique<MeshTriangle>(face, fill(),
                                                       state_.material.texture ? state_.material.texture->texture

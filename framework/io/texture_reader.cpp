@@ -59,8 +59,10 @@ bool has_sound_tables(std::string_view bytes) {
 /// Whether each chunk of a PNG lies within the file. stb_image takes as much memory as a damaged one says that it has.
 bool has_whole_chunks(std::string_view png) {
     constexpr std::size_t k_signature = 8;
-    constexpr std::size_t k_around = 12;  // bytes of a chunk beside its data: length, kind and check sum
-    for (std::size_t at = k_signature; at + k_around <= png.size();) {
+    constexpr std::size_t k_head = 8;     // bytes of a chunk: length and kind
+    constexpr std::size_t k_around = 12;  // and, behind its data, a check sum
+    std::size_t at = k_signature;
+    while (at + k_around <= png.size()) {
         std::size_t length = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             length = 256 * length + static_cast<unsigned char>(png[at + i]);
@@ -70,7 +72,7 @@ bool has_whole_chunks(std::string_view png) {
         }
         at += k_around + length;
     }
-    return true;
+    return at + k_head > png.size();
 }
 
 /// The JPEG with all eight Huffman tables defined at its start, by one code each; its own take their places. stb_image

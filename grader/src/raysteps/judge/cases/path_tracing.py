@@ -36,7 +36,7 @@ from raysteps.judge.protocol import (
 )
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import MOST_ASKED, PathHit, PathScript, Scatter
-from raysteps.judge.statistics import Numbers, has_mean, is_uniform
+from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform
 
 # Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
 # compared with the reference's. Seen from above the tip of such a direction lies anywhere in the unit disk, all places
@@ -408,17 +408,27 @@ def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -
     return False
 
 
-_TOO_LONG = 4.0  # times the reference's questions
+_SPREAD = 1.5  # standard deviation of a path's questions, as a share of their mean, at most
+_SLACK = 0.01
+
+
+def _length_problem(expected: Estimates, actual: Estimates) -> str:
+    """Roulette says how many rays a path has on average. Who ends it by other rules asks more or less."""
+    share = actual.cost / actual.count / (expected.cost / expected.count)
+    most = _SLACK + DEVIATIONS * _SPREAD * math.sqrt(1 / actual.count + 1 / expected.count)
+    if abs(share - 1) <= most:
+        return ""
+    return f"paths {'go on for too long' if share > 1 else 'end too soon'}"
 
 
 def _light_problem(inputs: Inputs, expected: _Light, actual: _Light) -> str:
     if (expected.many is None) != (actual.many is None):
         return "no proper answer came"
     if expected.many is not None and actual.many is not None:
-        per_path = actual.many.cost / actual.many.count
-        if per_path > _TOO_LONG * expected.many.cost / expected.many.count:
-            return "paths go on for much too long"
-        return estimates_problem("the light", mean_light(_script(inputs)), expected.many, actual.many)
+        return first(
+            _length_problem(expected.many, actual.many),
+            estimates_problem("the light", mean_light(_script(inputs)), expected.many, actual.many),
+        )
     counts = ""
     if len(actual.cast) != len(expected.cast):
         counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
@@ -502,19 +512,22 @@ def _furnace(draw: RandomSource, low: float, high: float) -> PathScript:
     return PathScript(_BLACK, goes_on=True, hits=(hit,))
 
 
+_LATE = 32  # bounces: who cuts paths off finds nothing
+
+
 def _late(draw: RandomSource) -> PathScript:
-    """All light is found behind twelve bounces: roulette has taken some of the paths, and those left count more."""
+    """All light is found behind many bounces: roulette has taken most of the paths, and those left count more."""
     dark = [
         PathHit(
             i + 1 + draw.real(0.1, 0.8),
             draw.direction(),
             _BLACK,
             _BLACK,
-            Scatter(draw.direction(), _gray(draw, 0.93, 0.99)),
+            Scatter(draw.direction(), _gray(draw, 0.97, 0.99)),
         )
-        for i in range(12)
+        for i in range(_LATE)
     ]
-    last = PathHit(14.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
+    last = PathHit(_LATE + 2.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
     return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
 
 

@@ -85,7 +85,7 @@ export class DiskFolder {
       await this.accept(step, text);
       return { by: "nobody", text };
     }
-    if (text === null || text === before) {
+    if (text === null || text === before || text === step.stub) {
       return { by: "page", text };
     }
     return { by: mine === before ? "disk" : "both", text };

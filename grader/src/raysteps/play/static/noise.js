@@ -13,11 +13,11 @@ export function readEstimates(bytes) {
     return null;
   }
   const [width, height] = [Number(found[1]), Number(found[2])];
-  const values = new Float64Array(6 * width * height);
   const view = new DataView(bytes.buffer, bytes.byteOffset + found[0].length);
-  if (view.byteLength !== 4 * values.length) {
+  if (view.byteLength !== 24 * width * height) {
     return null;
   }
+  const values = new Float64Array(6 * width * height);
   for (let at = 0; at < values.length; at++) {
     values[at] = view.getFloat32(4 * at, true);
   }
@@ -56,11 +56,13 @@ function whole(parts) {
   };
 }
 
-/** How far each channel is off, and how far it may be. */
-function off(mine, right, factor) {
+/** How far each channel is off, and how far it may be; `usual`: the reference's mean variance. */
+function off(mine, right, { factor, most: mostNoise }, usual) {
   return [0, 1, 2].map((channel) => {
-    const variance = Math.max(mine.variance[channel], factor * right.variance[channel]) + right.variance[channel];
-    const most = DEVIATIONS * Math.sqrt(variance) + RELATIVE * Math.abs(right.mean[channel]) + ABSOLUTE;
+    const allowed = mostNoise * factor * Math.max(right.variance[channel], usual[channel]);
+    const own = Math.max(Math.min(mine.variance[channel], allowed), factor * right.variance[channel]);
+    const bound = DEVIATIONS * Math.sqrt(own + right.variance[channel]);
+    const most = bound + RELATIVE * Math.abs(right.mean[channel]) + ABSOLUTE;
     return { by: mine.mean[channel] - right.mean[channel], most };
   });
 }
@@ -74,7 +76,8 @@ function lostPixels({ width, values }) {
   let first = -1;
   let lost = 0;
   for (let pixel = 0; pixel < values.length / 6; pixel++) {
-    if (!values.subarray(6 * pixel, 6 * pixel + 6).every(Number.isFinite)) {
+    const six = values.subarray(6 * pixel, 6 * pixel + 6);
+    if (!six.every(Number.isFinite) || six.subarray(3).some((variance) => variance < 0)) {
       first = lost++ ? first : pixel;
     }
   }
@@ -84,13 +87,16 @@ function lostPixels({ width, values }) {
     : "";
 }
 
-function partsOff(own, rights, factor, across) {
-  const all = own.map((part, number) => off(part, rights[number], factor));
+function partsOff(own, rights, noise, across) {
+  const usual = [0, 1, 2].map(
+    (channel) => rights.reduce((sum, { variance }) => sum + variance[channel], 0) / rights.length,
+  );
+  const all = own.map((part, number) => off(part, rights[number], noise, usual));
   const share = all.filter(isWrong).length / all.length;
   if (share === 0) {
     return "";
   }
-  const far = all.map((channels) => Math.abs(channels.reduce((sum, { by, most }) => sum + by / most, 0)));
+  const far = all.map((channels) => Math.max(...channels.map(({ by, most }) => Math.abs(by / most))));
   const worst = far.indexOf(Math.max(...far));
   const place = (number) => PART * number + PART / 2;
   return (
@@ -100,8 +106,8 @@ function partsOff(own, rights, factor, across) {
   );
 }
 
-function pictureOff(mine, right, factor) {
-  const channels = off(mine, right, factor);
+function pictureOff(mine, right, noise) {
+  const channels = off(mine, right, noise, right.variance);
   if (!isWrong(channels)) {
     return "";
   }
@@ -117,8 +123,8 @@ function tooNoisy(mine, right, factor, most) {
   const sum = ({ variance }) => variance.reduce((total, one) => total + one, 0);
   const ratio = sum(right) > 0 ? sum(mine) / (factor * sum(right)) : sum(mine) > 0 ? Infinity : 1;
   return ratio > most
-    ? `The picture is right but too noisy: its variance is ${brief(ratio)} times the reference's with as many ` +
-        `samples; at most ${brief(most)} times is expected.`
+    ? `The picture is too noisy: its variance is ${brief(ratio)} times the reference's with as many samples; at most ` +
+        `${brief(most)} times is expected. Its mean light is right, as far as that can be told.`
     : "";
 }
 
@@ -145,8 +151,8 @@ export function compareEstimates(mine, noise) {
   }));
   const [all, right] = [whole(own), whole(rights)];
   return fails(
-    pictureOff(all, right, noise.factor) ||
-      partsOff(own, rights, noise.factor, Math.ceil(mine.width / PART)) ||
+    pictureOff(all, right, noise) ||
+      partsOff(own, rights, noise, Math.ceil(mine.width / PART)) ||
       tooNoisy(all, right, noise.factor, noise.most),
   );
 }

@@ -393,6 +393,7 @@ class Page {
       const kept = await this.#work.read(step.id);
       const found = await this.#onDisk(() => this.#disk.changes(step, kept ?? step.stub));
       if (found?.by === "disk") {
+        await this.#work.write(replaced(step), kept ?? step.stub);
         await this.#work.write(step.id, found.text);
         await this.#disk.accept(step, found.text);
       } else if (found?.by === "page" && kept) {
@@ -747,7 +748,7 @@ class Page {
     const estimates = mine && picture.noise ? readEstimates(ran.made["/out/estimates"]) : null;
     const verdict = estimates
       ? compareEstimates(estimates, picture.noise)
-      : mine
+      : mine && !picture.noise
         ? compare(mine, reference, picture.maxWrong)
         : { passed: false, message: whyNothing(ran, "The picture", data.words.endless) };
     const stats = ran.made?.["/out/stats.json"];
