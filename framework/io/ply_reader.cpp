@@ -138,7 +138,8 @@ public:
         read_header();
         Body body(bytes_, name_, format_, place_);
         for (const Element& element : elements_) {
-            for (std::size_t i = 0; i < element.count; ++i) {
+            const std::size_t count = element.properties.empty() ? 0 : element.count;  // what is nothing takes no time
+            for (std::size_t i = 0; i < count; ++i) {
                 body.begin(is_known(element.name) ? element.name : raysteps::quoted(element.name), i);
                 read_one(element, body);
             }
@@ -234,9 +235,6 @@ private:
     }
 
     void read_one(const Element& element, Body& body) {
-        if (element.properties.empty()) {
-            return;
-        }
         if (element.name == "vertex") {
             read_vertex(element, body);
             return;
