@@ -537,7 +537,10 @@ private:
     void light_up(MeshFace& face, bool reversed) {
         const auto corner = [&](std::size_t i) { return face.at(i).position; };
         const glm::vec3 front = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-        const glm::vec3 bright = face[0].normal + face[1].normal + face[2].normal;
+        glm::vec3 bright(0.0F);
+        for (const MeshCorner& one : face) {
+            bright += one.normal;
+        }
         if ((glm::dot(front, bright) < 0.0F) != reversed) {
             std::swap(face[1], face[2]);
         }

@@ -145,10 +145,10 @@ TEST_CASE("unit_disk: equal rings and equal slices get equally many", "[12-soft-
     Shares slices;
     Shares differences;
     with_many([&](const glm::vec2& u) {
-        const glm::vec2 place = unit_disk(u);
-        rings.add(glm::dot(place, place) * 0.99999F);
-        slices.add(turn(place.x, place.y) * 0.99999F);
-        differences.add(difference(glm::dot(place, place), turn(place.x, place.y)));
+        const glm::vec2 point = unit_disk(u);
+        rings.add(glm::dot(point, point) * 0.99999F);
+        slices.add(turn(point.x, point.y) * 0.99999F);
+        differences.add(difference(glm::dot(point, point), turn(point.x, point.y)));
     });
     INFO("the part of the disk within a radius r has the share r * r of its area");
     rings.check_even();

@@ -325,9 +325,9 @@ def path() -> Drawing:
         ("the path", "t-blue"),
         ("light samples, each", "t-red"),
         ("times the weight there", "t-red"),
-        ("crossed out: the sample of", ""),
-        ("the hit before has", ""),
-        ("brought that light", ""),
+        ("crossed out: counted", ""),
+        ("by the sample of the", ""),
+        ("hit before it", ""),
     )
     for number, (line, color) in enumerate(words):
         figure.text((466, 78 + 26 * number + (12 if number > 2 else 0)), line, f"small {color}".strip())
