@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <ostream>
 #include <random>
 
