@@ -189,7 +189,8 @@ TEST_CASE("cap_direction: equal solid angles get equally many", "[12-soft-light]
     }
 }
 
-TEST_CASE("cap_direction: a cap of a billionth of the height is not lost to rounding", "[12-soft-light][cap_direction]") {
+TEST_CASE("cap_direction: a cap of a billionth of the height is not lost to rounding",
+          "[12-soft-light][cap_direction]") {
     constexpr float k_height = 1e-9F;
     double sum = 0.0;
     with_many([&](const glm::vec2& u) {
