@@ -13,12 +13,12 @@
 #define STBI_NO_STDIO  // files are read by read_file
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#if defined(__GNUC__)
+#ifdef __GNUC__
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #endif
 #include <stb_image.h>
-#if defined(__GNUC__)
+#ifdef __GNUC__
 #pragma GCC diagnostic pop
 #endif
 
@@ -39,7 +39,8 @@ bool has_sound_tables(std::string_view bytes) {
         if (!is_segment) {
             continue;
         }
-        const auto length = static_cast<std::size_t>(256 * byte(at + 2) + byte(at + 3));
+        const auto length =
+            std::size_t{256} * static_cast<std::size_t>(byte(at + 2)) + static_cast<std::size_t>(byte(at + 3));
         const std::size_t end = at + 2 + length;
         for (std::size_t table = at + 4; marker == 0xC4 && table < end;) {
             int codes = 0;
