@@ -29,13 +29,7 @@ std::vector<glm::vec2> read_points(TokenReader& words) {
 template <typename Ask>
 auto ask_all(const std::vector<glm::vec2>& points, const Ask& ask) {
     std::vector<decltype(ask(points.front()))> found(points.size());
-    std::size_t next = 0;  // one thread only, so that a grade does not depend on who was quicker
-    run_on_threads(1, [&] {
-        while (next < points.size()) {
-            const std::size_t i = next++;
-            found[i] = ask(points[i]);
-        }
-    });
+    for_each_in_turn(points.size(), [&](std::size_t i) { found[i] = ask(points[i]); });
     return found;
 }
 
