@@ -32,7 +32,9 @@ from raysteps.judge.protocol import (
     f32,
     rounded,
     text,
+    vec_of,
     vector_words,
+    whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import MOST_ASKED, PathHit, PathScript, Scatter
@@ -46,18 +48,6 @@ _UNIT = 1e-4
 _FEW, _MANY = 8, 16  # bins for each of the two
 _MANY_DIRECTIONS = 16_384  # from here on the finer bins
 _MOST = 40_000
-
-
-def _vec(inputs: Inputs, name: str) -> Vector:
-    value = inputs[name]
-    assert isinstance(value, Vec)
-    return value.value
-
-
-def _whole(inputs: Inputs, name: str) -> int:
-    value = inputs[name]
-    assert isinstance(value, Whole)
-    return value.value
 
 
 def _unit_problem(directions: Numbers, normal: Vector) -> str:
@@ -113,9 +103,9 @@ def _words(v: Sequence[float] | Numbers) -> str:
 
 
 def _directions_problem(inputs: Inputs, _expected: Numbers, actual: Numbers) -> str:
-    if len(actual) != _whole(inputs, "times"):
+    if len(actual) != whole_of(inputs, "times"):
         return "no proper answer came"
-    return _density_problem(actual, _vec(inputs, "normal"))
+    return _density_problem(actual, vec_of(inputs, "normal"))
 
 
 def _draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
@@ -160,7 +150,7 @@ def _pdf_above(draw: RandomSource, low: float, high: float) -> Inputs:
 
 def _pdf_below(draw: RandomSource) -> Inputs:
     inputs = _pdf_above(draw, 0.01, 0.99)
-    return _pdf(_vec(inputs, "normal"), times(-1, _vec(inputs, "direction")))
+    return _pdf(vec_of(inputs, "normal"), times(-1, vec_of(inputs, "direction")))
 
 
 def _simple_pdf(draw: RandomSource) -> Inputs:
@@ -236,7 +226,7 @@ def _of_the_hit(inputs: Inputs) -> tuple[Vector, Vector]:
 
 def _sample_problems(inputs: Inputs, actual: _Samples) -> tuple[str, ...]:
     normal, albedo = _of_the_hit(inputs)
-    if len(actual.rows) + actual.nothing != _whole(inputs, "times"):
+    if len(actual.rows) + actual.nothing != whole_of(inputs, "times"):
         return ("no proper answer came",) * 3
     if not any(albedo):
         return ("a surface that sends no light on gives samples",) * 3 if len(actual.rows) else ("", "", "")
@@ -349,7 +339,7 @@ class _Light:
 
 
 def _is_for_many(inputs: Inputs) -> bool:
-    return _whole(inputs, "most") > 0
+    return whole_of(inputs, "most") > 0
 
 
 def _read_light(tokens: TokenReader) -> _Light:

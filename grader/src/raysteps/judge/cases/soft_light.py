@@ -22,7 +22,23 @@ from raysteps.judge.answers import (
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.protocol import Fill, Frame, Hit, Inputs, Ray, Real, TokenReader, Vec, Whole, f32, rounded, text
+from raysteps.judge.protocol import (
+    Fill,
+    Frame,
+    Hit,
+    Inputs,
+    Ray,
+    Real,
+    TokenReader,
+    Vec,
+    Whole,
+    f32,
+    real_of,
+    rounded,
+    text,
+    vec_of,
+    whole_of,
+)
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.statistics import Numbers, has_mean, is_uniform
 
@@ -63,27 +79,9 @@ def _corners() -> Inputs:
     return {"seed": Whole(0), "times": Whole(_CORNERS)}
 
 
-def _whole(inputs: Inputs, name: str) -> int:
-    value = inputs[name]
-    assert isinstance(value, Whole)
-    return value.value
-
-
-def _vec(inputs: Inputs, name: str) -> Vector:
-    value = inputs[name]
-    assert isinstance(value, Vec)
-    return value.value
-
-
-def _real(inputs: Inputs, name: str) -> float:
-    value = inputs[name]
-    assert isinstance(value, Real)
-    return value.value
-
-
 def _broken(inputs: Inputs, actual: _Draws, what: str) -> str:
     """What is wrong whatever was asked."""
-    if len(actual.rows) != _whole(inputs, "times"):
+    if len(actual.rows) != whole_of(inputs, "times"):
         return "no proper answer came"
     if not np.isfinite(actual.rows).all():
         return f"{what} is infinite or NaN"
@@ -125,7 +123,7 @@ _TRIANGLE = _Places(
 
 def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
     """The corners of the unit square are even nowhere; of a few points no more can be told than that they differ."""
-    if _whole(inputs, "seed") == 0:
+    if whole_of(inputs, "seed") == 0:
         return ""
     if len(shares) < _MANY:
         return "" if 2 * len(np.unique(shares, axis=0)) > len(shares) else "different u give the same point"
@@ -177,10 +175,10 @@ def _turned_problem(inputs: Inputs, _expected: _Turned, actual: _Turned) -> str:
     if not np.isfinite(np.array([actual.vector, *actual.axes])).all():
         return "a number is infinite or NaN"
     x, y, z = actual.axes
-    along = vector("what becomes of z", _vec(inputs, "normal"), z, _FRAME)
+    along = vector("what becomes of z", vec_of(inputs, "normal"), z, _FRAME)
     lengths = first(*(real("a length", 1.0, length(axis), _FRAME) for axis in (x, y)))
     angles = first(*(real("an angle", 0.0, dot(*pair), _FRAME) for pair in ((x, y), (y, z), (z, x))))
-    given = _vec(inputs, "vector")
+    given = vec_of(inputs, "vector")
     sum_ = add(add(times(given[0], x), y, given[1]), z, given[2])
     return first(along, lengths, angles, vector("the vector", sum_, actual.vector, Tolerance(1e-3, 1e-3)))
 
@@ -246,7 +244,7 @@ def _cap_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
         return broken
     if float(np.abs(np.linalg.norm(actual.rows, axis=1) - 1).max()) > 1e-3:
         return "a direction does not have length 1"
-    height = _real(inputs, "height")
+    height = real_of(inputs, "height")
     found = _heights(actual.rows)
     if float(found.max()) > height * (1 + 1e-3) + 1e-12 + (1e-6 if height > 0.01 else 0.0):
         return "a direction lies outside of the cap"
@@ -349,7 +347,7 @@ def _density_problem(expected: Numbers, actual: _Draws) -> str:
 
 
 def _area_density(inputs: Inputs, area: float, normal: Numbers, actual: _Draws) -> Numbers:
-    back = np.array(_vec(inputs, "from")) - actual.rows[:, _POSITION]
+    back = np.array(vec_of(inputs, "from")) - actual.rows[:, _POSITION]
     distances = np.linalg.norm(back, axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         cosines = back @ normal / distances
@@ -375,7 +373,7 @@ def _sample_answer(problems: _Problems) -> Answer[_Draws]:
 
 
 def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
-    a, b, c = (np.array(_vec(inputs, name)) for name in "abc")
+    a, b, c = (np.array(vec_of(inputs, name)) for name in "abc")
     across = np.cross(b - a, c - a)
     doubled = float(np.linalg.norm(across))
     normal = across / doubled
@@ -393,9 +391,9 @@ def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
 
 
 def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
-    radius = _real(inputs, "radius")
-    x, y, z = _basis(_vec(inputs, "normal"))
-    spokes = (actual.rows[:, _POSITION] - np.array(_vec(inputs, "center"))) / radius
+    radius = real_of(inputs, "radius")
+    x, y, z = _basis(vec_of(inputs, "normal"))
+    spokes = (actual.rows[:, _POSITION] - np.array(vec_of(inputs, "center"))) / radius
     of_x, of_y = spokes @ x, spokes @ y
     squares = of_x**2 + of_y**2
     off = float(np.abs(spokes @ z).max()) > 1e-3 or float(squares.max()) > 1 + 2e-3
@@ -410,7 +408,7 @@ _ROOT_OF_FLOAT = 7e-4  # of a distance: what a root of the difference of squares
 
 
 def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
-    center, radius, from_ = _vec(inputs, "center"), _real(inputs, "radius"), _vec(inputs, "from")
+    center, radius, from_ = vec_of(inputs, "center"), real_of(inputs, "radius"), vec_of(inputs, "from")
     distance = length(minus(center, from_))
     if distance <= radius:
         dark = np.zeros(len(actual.rows))
@@ -573,7 +571,7 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     frame, ray = inputs["frame"], inputs["ray"]
     assert isinstance(frame, Frame)
     assert isinstance(ray, Ray)
-    radius, focus = _real(inputs, "lens_radius"), _real(inputs, "focal_distance")
+    radius, focus = real_of(inputs, "lens_radius"), real_of(inputs, "focal_distance")
     origins, directions = actual.rows[:, :3], actual.rows[:, 3:]
     spokes = origins - np.array(ray.origin)
     of_x, of_y = spokes @ np.array(frame.right), spokes @ np.array(frame.up)
@@ -602,7 +600,7 @@ def _lens_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
 
 def _lens_credit(inputs: Inputs, _expected: _Draws, actual: _Draws) -> float:
     """Half for rays from the right places, or to the right one; a lens without a size has one place only."""
-    if _broken(inputs, actual, "a ray") or not _real(inputs, "lens_radius"):
+    if _broken(inputs, actual, "a ray") or not real_of(inputs, "lens_radius"):
         return 0.0
     return share_right(*_lens_problems(inputs, actual))
 
