@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from raysteps.course.manifest import with_option
 from raysteps.images.compare import Comparison, Pixels
 
 Light = npt.NDArray[np.float64]
@@ -79,8 +80,7 @@ def samples_of(args: tuple[str, ...]) -> int:
 
 def with_samples(args: tuple[str, ...], factor: int) -> tuple[str, ...]:
     """The arguments of the same picture with `factor`, a square, times as many samples, drawn from another seed."""
-    at = args.index("--samples") if "--samples" in args else len(args)
-    return (*args[:at], *args[at + 2 :], "--samples", str(factor * samples_of(args)), "--seed", "11")
+    return (*with_option(args, "--samples", str(factor * samples_of(args))), "--seed", "11")
 
 
 def as_picture(light: Light) -> Pixels:
@@ -157,7 +157,7 @@ def compare_estimates(mine: Estimates, parts: Estimates, factor: float, max_nois
             f"{_numbers(own.mean[row, column])}, expected {_numbers(parts.mean[row, column])}."
         )
         return NoisyComparison(False, share, message, deviations)
-    noise = noise_ratio(mine, parts, factor)
+    noise = _ratio(all_mine, all_right, factor)
     if noise > max_noise:
         message = (
             f"The picture is too noisy: its variance is {noise:.3g} times the reference's with as many samples; at "
@@ -169,7 +169,11 @@ def compare_estimates(mine: Estimates, parts: Estimates, factor: float, max_nois
 
 def noise_ratio(mine: Estimates, parts: Estimates, factor: float) -> float:
     """The variance of the whole picture beside the reference's, for as many samples."""
-    own, right = (float(_whole(found, mine.size).variance.sum()) for found in (mine.in_parts(), parts))
+    return _ratio(_whole(mine.in_parts(), mine.size), _whole(parts, mine.size), factor)
+
+
+def _ratio(all_mine: Estimates, all_right: Estimates, factor: float) -> float:
+    own, right = float(all_mine.variance.sum()), float(all_right.variance.sum())
     return own / (factor * right) if right > 0 else math.inf if own > 0 else 1.0
 
 

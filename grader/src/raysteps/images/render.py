@@ -11,7 +11,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash, write_bytes, write_json
 from raysteps.common.process import run
 from raysteps.common.text import in_seconds, printable, shorten
-from raysteps.course.manifest import ImageCase, Step, earlier
+from raysteps.course.manifest import ImageCase, Step, earlier, with_option
 from raysteps.course.project import Project
 from raysteps.images.compare import (
     Comparison,
@@ -215,15 +215,17 @@ def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool
     return path
 
 
-def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
-    """A students' kit has it ready."""
-    if not kit.has_reference:
-        return stored_reference_image(kit, scene, args)
+def _read_drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool = False) -> Pixels:
     try:
-        return read_ppm(_drawn(kit, scene, args))
+        return read_ppm(_drawn(kit, scene, args, estimates=estimates))
     except PictureError:  # half a file, as after a full disk
         _kept(kit, scene, args).unlink()
-        return read_ppm(_drawn(kit, scene, args))
+        return read_ppm(_drawn(kit, scene, args, estimates=estimates))
+
+
+def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
+    """A students' kit has it ready."""
+    return _read_drawn(kit, scene, args) if kit.has_reference else stored_reference_image(kit, scene, args)
 
 
 @dataclass(frozen=True)
@@ -238,9 +240,10 @@ class Gate:
 
 
 def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Pixels:
-    """The reference's picture: of a noisy one, that with more samples."""
-    noisy = gate.max_noise is not None and kit.has_reference
-    return reference_picture(kit, scene, with_samples(gate.args, gate.more_samples) if noisy else gate.args)
+    """The reference's picture: of a noisy one, that with more samples, drawn once with the estimates beside it."""
+    if gate.max_noise is None or not kit.has_reference:
+        return reference_picture(kit, scene, gate.args)
+    return _read_drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
 
 
 def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estimates:
@@ -272,8 +275,7 @@ def part_of_its_pixels(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase |
 
 def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
     """The arguments of the same picture with what another step can do."""
-    at = args.index("--step") if "--step" in args else len(args)
-    return (*args[:at], *args[at + 2 :], "--step", str(step))
+    return with_option(args, "--step", str(step))
 
 
 _FIRST_WITH_LIGHT = 3  # the pictures of the steps before show something else
