@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "io/files.hpp"
 #include "io/numbers.hpp"
@@ -132,7 +133,7 @@ bool is_known(std::string_view element) { return element == "vertex" || element 
 
 class PlyReader {
 public:
-    PlyReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+    PlyReader(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
 
     MeshData read() {
         read_header();
@@ -218,7 +219,7 @@ private:
 
     void read_element(const std::vector<std::string_view>& words, std::string_view line) {
         const std::optional<int> count = parse_whole(words[2]);
-        if (!count || static_cast<std::size_t>(*count) > k_max_mesh_items) {
+        if (!count || *count < 0 || std::cmp_greater(*count, k_max_mesh_items)) {
             fail("a number of elements up to 67108864", line);
         }
         elements_.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "steps/13-path-tracing/path_tracing.hpp"
@@ -136,7 +137,7 @@ private:
     static constexpr std::size_t k_endless = 300;  ///< rays, then there is nothing more to meet
 
     static float cosine_of(const HitRecord& hit, const ScatterSample& sample) {
-        return glm::dot(hit.normal, sample.direction) / 3.14159265F;
+        return glm::dot(hit.normal, sample.direction) / std::numbers::pi_v<float>;
     }
 
     [[nodiscard]] const ScriptedHit& at(const HitRecord& hit) const {
