@@ -123,7 +123,7 @@ void measure_once(const Race& race, bool pictures, Side& side, bool warm_up) {
     const bool draws = pictures && !side.structure.slow;
     const ProcessorClock drawing;
     if (draws) {
-        TileRays rays_of_picture(*side.accelerator, workload.scene.lights.size());
+        TileRays rays_of_picture(*side.accelerator, workload.scene);
         (void)draw(workload.scene, rays_of_picture, workload.options);
     }
     if (warm_up) {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
+
+#include "core/rounding.hpp"
 
 namespace raysteps {
 namespace {
@@ -96,13 +97,7 @@ Box Cone::bounds() const {
     const double apex_radius = apex_.radius;
     const Vec low = glm::min(base - base_radius * reach, apex - apex_radius * reach);
     const Vec high = glm::max(base + base_radius * reach, apex + apex_radius * reach);
-    Box box;
-    constexpr float k_infinity = std::numeric_limits<float>::infinity();
-    for (int i = 0; i < 3; ++i) {  // rounded outwards
-        box.min[i] = std::nextafter(static_cast<float>(low[i]), -k_infinity);
-        box.max[i] = std::nextafter(static_cast<float>(high[i]), k_infinity);
-    }
-    return box;
+    return rounded_outwards(low, high);
 }
 
 // Three planes that may part the two: the sides of the bounds, the ends of the axis, and one that touches the

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
+
+#include "core/rounding.hpp"
 
 namespace raysteps {
 namespace {
@@ -41,14 +42,7 @@ std::optional<HitRecord> Disk::intersect(const Ray& ray) const {
 Box Disk::bounds() const {
     const Vec normal(normal_);
     const Vec reach = static_cast<double>(radius_) * glm::sqrt(glm::max(Vec(0.0), Vec(1.0) - normal * normal));
-    Box box;
-    constexpr float k_infinity = std::numeric_limits<float>::infinity();
-    for (int i = 0; i < 3; ++i) {  // rounded outwards
-        const auto center = static_cast<double>(center_[i]);
-        box.min[i] = std::nextafter(static_cast<float>(center - reach[i]), -k_infinity);
-        box.max[i] = std::nextafter(static_cast<float>(center + reach[i]), k_infinity);
-    }
-    return box;
+    return rounded_outwards(Vec(center_) - reach, Vec(center_) + reach);
 }
 
 // Planes that may part the two: the sides of the bounds, and that of the disk.

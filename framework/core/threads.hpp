@@ -22,18 +22,31 @@ void set_work_runner(WorkRunner runner);
 /// Whether that was done. Then work had better be cut into many small parts, of which many wait at the same time.
 [[nodiscard]] bool work_waits();
 
-/// Calls work(0) to work(count - 1), each once, in any order and on default_threads() threads, which take `portion`
-/// numbers at a time. Where there is one portion only, the caller does it alone.
+/// Calls work(0) to work(count - 1), each once, in any order and on so many threads, which take `portion` numbers at a
+/// time.
 template <typename Work>
-void for_each_on_threads(std::size_t count, std::size_t portion, const Work& work) {
+void share_among_threads(int threads, std::size_t count, std::size_t portion, const Work& work) {
     std::atomic<std::size_t> next{0};
-    run_on_threads(count <= portion ? 1 : default_threads(), [&] {
+    run_on_threads(threads, [&] {
         for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
             for (std::size_t i = begin; i < std::min(begin + portion, count); ++i) {
                 work(i);
             }
         }
     });
+}
+
+/// On default_threads() threads. Where there is one portion only, the caller does it alone.
+template <typename Work>
+void for_each_on_threads(std::size_t count, std::size_t portion, const Work& work) {
+    share_among_threads(count <= portion ? 1 : default_threads(), count, portion, work);
+}
+
+/// On the caller's thread alone; many at once where work waits for another program. What it costs does not depend on
+/// which thread was quicker.
+template <typename Work>
+void for_each_in_turn(std::size_t count, const Work& work) {
+    share_among_threads(1, count, 1, work);
 }
 
 }  // namespace raysteps

@@ -147,3 +147,17 @@ TEST_CASE("A hit of a mesh is that of its triangle, whatever step 11 makes of it
     CHECK(record.eye.hit->surface == std::size_t{0});
     CHECK_THAT(record.eye.hit->hit.normal, IsNear(lean));
 }
+
+TEST_CASE("a lamp with a size is told by the sum of what it brings", "[inspect]") {
+    Scene scene;
+    scene.camera = {.from = {0, 0, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .width = 3, .height = 3};
+    Fill shining{.color = k_black};
+    shining.emission = {2.0F, 3.0F, 4.0F};
+    scene.add(std::make_unique<Sphere>(glm::vec3(0), 1.0F, shining));
+    scene.area_lights.push_back({SphereLight{{0, 0, 0}, 1.0F}, shining.emission});
+    const auto accelerator = make_accelerator(Acceleration::none, scene.surfaces());
+    const PixelRecord record =
+        inspect_pixel(scene, scene.camera, *accelerator, Acceleration::none, options_of(12), 1, 1);
+    const std::string text = inspect_text(record);
+    CHECK(text.find("(2, 3, 4)  one sample of each") != std::string::npos);
+}

@@ -79,9 +79,13 @@ std::string color_words(const RayNode& node) {
     return node.color ? brief(*node.color) : node.followed_within ? "not seen" : "not kept";
 }
 
-void write_sum(TextLines& out, const RayNode& node, int level) {
+void write_sum(TextLines& out, const PixelRecord& record, const RayNode& node, int level) {
     if (node.direct) {
         out.line(level, "direct", brief(*node.direct) + "  the sum over the lights");
+    }
+    if (node.direct && node.local && has_area_lights(record.options.step)) {
+        const Color lamps = *node.local - *node.direct - node.transmitted.value_or(k_black);
+        out.line(level, "area lights", brief(lamps) + "  one sample of each, and what the surface sends out itself");
     }
     const Fill& fill = node.hit->hit.fill;
     for (const RayNode& bounce : node.bounces) {
@@ -118,7 +122,7 @@ void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, i
         for (const RayNode& bounce : node.bounces) {
             write_ray(out, record, bounce, level + 1);
         }
-        write_sum(out, node, level + 1);
+        write_sum(out, record, node, level + 1);
     }
     out.line(level + 1, "colour", color_words(node));
     if (node.followed_within) {

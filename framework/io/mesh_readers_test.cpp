@@ -193,6 +193,8 @@ TEST_CASE("bad textures", "[texture][errors]") {
     INFO("a PNG that claims to go on and on");
     const std::string endless = whole.substr(0, 33) + "\x74\x01\x01\x01IDAT" + whole.substr(41);
     CHECK(error(endless) == "bad.png: expected a whole picture, found one that is damaged");
+    const std::string headless = whole.substr(0, 33) + "\x3F\x01\x01\x01IDAT";
+    CHECK(error(headless) == "bad.png: expected a whole picture, found one that is damaged");
     INFO("a JPEG table with more codes than there can be");
     const std::string table = "\xFF\xD8\xFF\xC4" + std::string("\0\x13\0", 3) + std::string(16, '\xFF');
     CHECK(error(table) == "bad.png: expected a whole picture, found one that is damaged");

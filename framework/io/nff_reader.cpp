@@ -200,15 +200,15 @@ private:
     bool seen_background_ = false;
 };
 
-}  // namespace
-
-Scene read_nff(const std::filesystem::path& path) { return read_nff(read_file(path), display_name(path)); }
-
 /// NFF has no such entity; pbrt's scenes have that line.
-static bool is_pbrt(std::string_view text) {
+bool is_pbrt(std::string_view text) {
     constexpr std::string_view k_line = "WorldBegin";
     return text.starts_with(k_line) || text.find('\n' + std::string(k_line)) != std::string_view::npos;
 }
+
+}  // namespace
+
+Scene read_nff(const std::filesystem::path& path) { return read_nff(read_file(path), display_name(path)); }
 
 Scene load_scene(std::string_view path, const std::optional<PictureSize>& size) {
     const std::filesystem::path file = path_of(path);

@@ -93,7 +93,7 @@ private:
                                     std::string_view what) const {
         const bool backwards = text.starts_with('-');
         const std::optional<int> number = parse_whole(backwards ? text.substr(1) : text);
-        if (!number || *number < 1 || static_cast<std::size_t>(*number) > size) {
+        if (!number || *number < 1 || std::cmp_greater(*number, size)) {
             scanner_.fail(token,
                           "a number of one of the " + std::to_string(size) + ' ' + std::string(what) + " so far");
         }

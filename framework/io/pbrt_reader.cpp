@@ -580,7 +580,7 @@ private:
                 face.at(i).uv = place_in_texture(mesh.uvs.empty() ? glm::vec2(i == 1, i == 2) : mesh.uvs[corner]);
             }
             if (shines()) {
-                light_up(face, mesh.normals.empty() && state_.reversed);
+                light_up(face, state_.reversed);
             }
             scene_.add(std::make_unique<MeshTriangle>(face, fill(),
                                                       state_.material.texture ? state_.material.texture->texture
@@ -592,7 +592,10 @@ private:
     void light_up(MeshFace& face, bool reversed) {
         const auto corner = [&](std::size_t i) { return face.at(i).position; };
         const glm::vec3 front = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-        const glm::vec3 bright = face[0].normal + face[1].normal + face[2].normal;
+        glm::vec3 bright(0.0F);
+        for (const MeshCorner& one : face) {
+            bright += one.normal;
+        }
         if ((glm::dot(front, bright) < 0.0F) != reversed) {
             std::swap(face[1], face[2]);
         }

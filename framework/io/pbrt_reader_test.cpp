@@ -171,7 +171,7 @@ TEST_CASE("triangles shine to where pbrt lets them, whatever mirrors and turns t
     CHECK_THAT(bright_side("Scale -1 1 1 ", ""), IsNear({0.0F, 0.0F, 1.0F}));
     CHECK_THAT(bright_side("Rotate 180 0 1 0 ", ""), IsNear({0.0F, 0.0F, -1.0F}));
     CHECK_THAT(bright_side("", R"( "normal N" [0 0 -1  0 0 -1  0 0 -1])"), IsNear({0.0F, 0.0F, -1.0F}));
-    CHECK_THAT(bright_side("ReverseOrientation ", R"( "normal N" [0 0 1  0 0 1  0 0 1])"), IsNear({0.0F, 0.0F, 1.0F}));
+    CHECK_THAT(bright_side("ReverseOrientation ", R"( "normal N" [0 0 1  0 0 1  0 0 1])"), IsNear({0.0F, 0.0F, -1.0F}));
 }
 
 TEST_CASE("a camera with a lens", "[pbrt]") {

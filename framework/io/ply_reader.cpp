@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "io/files.hpp"
 #include "io/numbers.hpp"
@@ -132,13 +133,14 @@ bool is_known(std::string_view element) { return element == "vertex" || element 
 
 class PlyReader {
 public:
-    PlyReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+    PlyReader(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
 
     MeshData read() {
         read_header();
         Body body(bytes_, name_, format_, place_);
         for (const Element& element : elements_) {
-            for (std::size_t i = 0; i < element.count; ++i) {
+            const std::size_t count = element.properties.empty() ? 0 : element.count;  // what is nothing takes no time
+            for (std::size_t i = 0; i < count; ++i) {
                 body.begin(is_known(element.name) ? element.name : raysteps::quoted(element.name), i);
                 read_one(element, body);
             }
@@ -217,7 +219,7 @@ private:
 
     void read_element(const std::vector<std::string_view>& words, std::string_view line) {
         const std::optional<int> count = parse_whole(words[2]);
-        if (!count || static_cast<std::size_t>(*count) > k_max_mesh_items) {
+        if (!count || *count < 0 || std::cmp_greater(*count, k_max_mesh_items)) {
             fail("a number of elements up to 67108864", line);
         }
         elements_.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
@@ -234,9 +236,6 @@ private:
     }
 
     void read_one(const Element& element, Body& body) {
-        if (element.properties.empty()) {
-            return;
-        }
         if (element.name == "vertex") {
             read_vertex(element, body);
             return;

@@ -13,12 +13,12 @@
 #define STBI_NO_STDIO  // files are read by read_file
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#if defined(__GNUC__)
+#ifdef __GNUC__
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #endif
 #include <stb_image.h>
-#if defined(__GNUC__)
+#ifdef __GNUC__
 #pragma GCC diagnostic pop
 #endif
 
@@ -39,7 +39,8 @@ bool has_sound_tables(std::string_view bytes) {
         if (!is_segment) {
             continue;
         }
-        const auto length = static_cast<std::size_t>(256 * byte(at + 2) + byte(at + 3));
+        const auto length =
+            std::size_t{256} * static_cast<std::size_t>(byte(at + 2)) + static_cast<std::size_t>(byte(at + 3));
         const std::size_t end = at + 2 + length;
         for (std::size_t table = at + 4; marker == 0xC4 && table < end;) {
             int codes = 0;
@@ -59,8 +60,10 @@ bool has_sound_tables(std::string_view bytes) {
 /// Whether each chunk of a PNG lies within the file. stb_image takes as much memory as a damaged one says that it has.
 bool has_whole_chunks(std::string_view png) {
     constexpr std::size_t k_signature = 8;
-    constexpr std::size_t k_around = 12;  // bytes of a chunk beside its data: length, kind and check sum
-    for (std::size_t at = k_signature; at + k_around <= png.size();) {
+    constexpr std::size_t k_head = 8;     // bytes of a chunk: length and kind
+    constexpr std::size_t k_around = 12;  // and, behind its data, a check sum
+    std::size_t at = k_signature;
+    while (at + k_around <= png.size()) {
         std::size_t length = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             length = 256 * length + static_cast<unsigned char>(png[at + i]);
@@ -70,7 +73,7 @@ bool has_whole_chunks(std::string_view png) {
         }
         at += k_around + length;
     }
-    return true;
+    return at + k_head > png.size();
 }
 
 /// The JPEG with all eight Huffman tables defined at its start, by one code each; its own take their places. stb_image

@@ -53,8 +53,6 @@ Rect grown(const Rect& tile, int margin, const Camera& fine_camera) {
     return {.x = left, .y = top, .width = right - left, .height = bottom - top};
 }
 
-std::uint32_t number_of(int x, int y) { return (static_cast<std::uint32_t>(y) << 16U) ^ static_cast<std::uint32_t>(x); }
-
 }  // namespace
 
 FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& options)
@@ -65,7 +63,7 @@ FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& 
 }
 
 std::vector<glm::vec2> FilmSampler::points_of(int x, int y) const {
-    RandomStream random(options_.seed, number_of(x, y));
+    RandomStream random(options_.seed, pixel_number(x, y));
     if (options_.sampler == Sampler::stratified) {
         return stratified_samples(side_, random);
     }
@@ -106,7 +104,7 @@ struct FilmSampler::Film {
 
 std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integrator& integrator) const {
     std::vector<FilmSample> samples;
-    SampleId sample{.pixel = RandomStream::philox({number_of(x, y), options_.seed, 0, 0}, {0, 0})[0]};
+    SampleId sample{.pixel = RandomStream::philox({pixel_number(x, y), options_.seed, 0, 0}, {0, 0})[0]};
     for (const glm::vec2& point : points_of(x, y)) {
         const int fine_x = fine_place(x, point.x, fine_camera_.width);
         const int fine_y = fine_place(y, point.y, fine_camera_.height);

@@ -37,6 +37,10 @@ struct SampleId {
     }
 };
 
+[[nodiscard]] constexpr std::uint32_t pixel_number(int x, int y) {
+    return (static_cast<std::uint32_t>(y) << 16U) ^ static_cast<std::uint32_t>(x);
+}
+
 /// Calls the step functions. Each thread has its own.
 class Integrator {
 public:

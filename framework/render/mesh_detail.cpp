@@ -90,7 +90,7 @@ private:
             2.0F * glm::tan(glm::radians(scene_.camera.angle) / 2.0F) / static_cast<float>(scene_.camera.height);
         const float texels = texels_across(face, size, flat, pixel_angle);
         const float level = mip_level(texels, static_cast<int>(pyramid.size()));
-        const float last = static_cast<float>(pyramid.size() - 1);
+        const auto last = static_cast<float>(pyramid.size() - 1);
         return trilinear(pyramid, texture_coordinates(face, weights),
                          std::isfinite(level) ? std::clamp(level, 0.0F, last) : 0.0F, texture.wrap);
     }

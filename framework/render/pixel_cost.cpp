@@ -20,11 +20,11 @@ std::uint64_t cost_of(const PixelCost& pixel, CostKind kind) {
     return 0;
 }
 
-Color measured_color(Integrator& integrator, const Ray& ray, PixelCost& cost) {
+Color measured_color(Integrator& integrator, const Ray& ray, const SampleId& sample, PixelCost& cost) {
     using Clock = std::chrono::steady_clock;
     const Stats before = thread_stats();
     const Clock::time_point start = Clock::now();
-    const Color color = integrator.primary_color(ray);
+    const Color color = integrator.primary_color(ray, sample);
     const auto spent = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
     const Stats& after = thread_stats();
     cost = {.surface_tests = after.surface_tests - before.surface_tests,

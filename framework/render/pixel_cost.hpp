@@ -21,6 +21,6 @@ enum class CostKind { tests, boxes, depth, time };
 [[nodiscard]] std::uint64_t cost_of(const PixelCost& pixel, CostKind kind);
 
 /// As primary_color, and writes down what it cost.
-[[nodiscard]] Color measured_color(Integrator& integrator, const Ray& ray, PixelCost& cost);
+[[nodiscard]] Color measured_color(Integrator& integrator, const Ray& ray, const SampleId& sample, PixelCost& cost);
 
 }  // namespace raysteps

@@ -67,7 +67,8 @@ std::optional<FilmSampler> sampler_of(Camera camera, const RenderOptions& option
 Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     if (job.options.measure_cost) {
         const Ray ray = primary_ray(job.camera, job.frame, x, y);
-        return measured_color(integrator, ray, job.costs.at(x - job.crop.x, y - job.crop.y));
+        return measured_color(integrator, ray, {.pixel = pixel_number(x, y)},
+                              job.costs.at(x - job.crop.x, y - job.crop.y));
     }
     return mean_color(x, y, integrator, job);
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <ostream>
 #include <random>
 
@@ -49,8 +50,8 @@ public:
     glm::vec3 unit_vector() {
         const float z = uniform(-1.0F, 1.0F);
         const float angle = uniform(0.0F, 6.2831853F);
-        const float radius = std::sqrt(1.0F - z * z);
-        return glm::normalize(glm::vec3{radius * std::cos(angle), radius * std::sin(angle), z});
+        const glm::vec2 level = std::sqrt((1.0F - z) * (1.0F + z)) * glm::vec2(std::cos(angle), std::sin(angle));
+        return glm::normalize(glm::vec3(level, z));
     }
 
     /// A unit vector on the side of the normal, at least `cosine` steep.

@@ -161,7 +161,8 @@ void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
                 return;
             }
             TracedPixel pixel{x, y, k_black, {}};
-            pixel.color = measured_color(*integrator, primary_ray(pass.request.camera, pass.view, x, y), pixel.cost);
+            pixel.color = measured_color(*integrator, primary_ray(pass.request.camera, pass.view, x, y),
+                                         {.pixel = pixel_number(x, y)}, pixel.cost);
             traced.push_back(pixel);
         }
     }

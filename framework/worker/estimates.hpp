@@ -58,7 +58,7 @@ public:
             sum += one;
             squares += one * one;
         }
-        const glm::dvec3 variance = (squares - sum * sum / double{k_batches}) * double{k_batches};
+        const glm::dvec3 variance = squares - sum * sum / double{k_batches};  // of the sum
         const double largest = std::max({std::abs(sum.x), std::abs(sum.y), std::abs(sum.z)});
         return std::sqrt(std::max({variance.x, variance.y, variance.z, 0.0})) / largest;
     }
@@ -94,13 +94,7 @@ void write_estimates(const EstimatePlan& plan, TokenWriter& answer, const MakeEs
         const double rest = std::min(wanted, static_cast<double>(plan.most)) - sums.count();
         std::vector<Estimate> found(static_cast<std::size_t>(std::ceil(rest / k_batches) * k_batches));
         const int begin = sums.count();
-        std::size_t next = 0;  // one thread only, so that a grade does not depend on who was quicker
-        run_on_threads(1, [&] {
-            while (next < found.size()) {
-                const std::size_t i = next++;
-                found[i] = at(begin + static_cast<int>(i));
-            }
-        });
+        for_each_in_turn(found.size(), [&](std::size_t i) { found[i] = at(begin + static_cast<int>(i)); });
         for (const Estimate& one : found) {
             sums.add(sums.count(), one);
         }

@@ -1,6 +1,8 @@
 // Directions and paths: step 13.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "steps/13-path-tracing/path_tracing.hpp"
@@ -43,6 +45,7 @@ struct ScriptedHit {
     float distance = 1.0F;
     glm::vec3 normal{0.0F};
     Color emission{0.0F};
+    bool front_face = true;
     Color light{0.0F};                    ///< what light_sample gives
     std::optional<ScatterSample> sample;  ///< what scatter gives
 };
@@ -62,6 +65,7 @@ Script read_script(TokenReader& words) {
         hit.distance = words.number();
         hit.normal = words.vector();
         hit.emission = words.vector();
+        hit.front_face = words.flag();
         hit.light = words.vector();
         if (words.flag()) {
             hit.sample.emplace();
@@ -92,6 +96,7 @@ public:
         hit.ray_direction = ray.direction;
         hit.distance = scripted.distance;
         hit.fill.emission = scripted.emission;
+        hit.front_face = scripted.front_face;
         return hit;
     }
 
@@ -100,11 +105,15 @@ public:
         return at(hit).light;
     }
 
-    /// The direction is turned to the side of the normal.
+    /// The direction is turned to the side of the normal. Who asks twice gets another one.
     [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& hit) override {
         std::optional<ScatterSample> sample = at(hit).sample;
         if (sample) {
-            sample->direction *= glm::dot(sample->direction, hit.normal) < 0.0F ? -1.0F : 1.0F;
+            const float along = glm::dot(sample->direction, hit.normal);
+            sample->direction *= along < 0.0F ? -1.0F : 1.0F;
+            if (++scattered_ > cast_.size()) {
+                sample->direction = 2.0F * std::abs(along) * hit.normal - sample->direction;
+            }
             sample->pdf = cosine_of(hit, *sample);
         }
         return sample;
@@ -119,7 +128,7 @@ private:
     static constexpr std::size_t k_endless = 300;  ///< rays, then there is nothing more to meet
 
     static float cosine_of(const HitRecord& hit, const ScatterSample& sample) {
-        return glm::dot(hit.normal, sample.direction) / 3.14159265F;
+        return glm::dot(hit.normal, sample.direction) / std::numbers::pi_v<float>;
     }
 
     [[nodiscard]] const ScriptedHit& at(const HitRecord& hit) const {
@@ -131,6 +140,7 @@ private:
     const Script& script_;
     mutable std::vector<Ray> cast_;
     int asked_ = 0;
+    std::size_t scattered_ = 0;
 };
 
 /// Asked once, with all rays that were cast; or for estimates, where the plan wants some.

@@ -9,12 +9,12 @@
 
 namespace raysteps {
 
-constexpr float k_pi = std::numbers::pi_v<float>;
+[[maybe_unused]] constexpr float k_pi = std::numbers::pi_v<float>;
 
 glm::vec3 turned_to(const glm::vec3& normal, const glm::vec3& vector) {
     // BEGIN SOLUTION turned_to
     // TODO: Find two unit vectors at right angles to the normal and to each other; they take x and y.
-    // RETURN vector
+    // RETURN glm::vec3(0.0F)
     const glm::vec3 across = std::abs(normal.x) < 0.5F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
     const glm::vec3 side = glm::normalize(glm::cross(across, normal));
     const glm::vec3 other = glm::cross(normal, side);
@@ -35,7 +35,7 @@ glm::vec2 unit_disk(const glm::vec2& u) {
 glm::vec3 cap_direction(float height, const glm::vec2& u) {
     // BEGIN SOLUTION cap_direction
     // TODO: All heights of the cap are equally likely; the radius at a height follows from the length of 1.
-    // RETURN glm::vec3(0.0F, 0.0F, 1.0F)
+    // RETURN glm::vec3(0.0F)
     const float below = height * u.x;
     const float radius = std::sqrt(below * (2.0F - below));
     const float angle = 2.0F * k_pi * u.y;
@@ -113,7 +113,7 @@ Color sampled_light(const HitRecord& hit, const Color& radiance, const LightSamp
 Ray lens_ray(const Camera& camera, const ViewFrame& frame, const Ray& ray, const glm::vec2& u) {
     // BEGIN SOLUTION lens_ray
     // TODO: Find where the ray meets the plane of focus, and go there from another point of the lens.
-    // RETURN ray
+    // RETURN Ray{}
     const float way = camera.focal_distance / glm::dot(ray.direction, frame.forward);
     const glm::vec3 sharp = camera.from + way * ray.direction;
     const glm::vec2 place = camera.lens_radius * unit_disk(u);

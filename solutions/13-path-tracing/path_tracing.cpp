@@ -12,7 +12,7 @@ namespace raysteps {
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& u) {
     // BEGIN SOLUTION cosine_direction
     // TODO: Lift a point that is uniform on the unit disk up to the half sphere above it.
-    // RETURN normal
+    // RETURN glm::vec3(0.0F)
     const glm::vec3 helper = std::abs(normal.x) < 0.7F ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
     const glm::vec3 across = glm::normalize(glm::cross(normal, helper));
     const glm::vec3 along = glm::cross(normal, across);

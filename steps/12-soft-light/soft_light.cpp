@@ -9,12 +9,12 @@
 
 namespace raysteps {
 
-constexpr float k_pi = std::numbers::pi_v<float>;
+[[maybe_unused]] constexpr float k_pi = std::numbers::pi_v<float>;
 
 glm::vec3 turned_to(const glm::vec3& normal, const glm::vec3& vector) {
     // TODO: Find two unit vectors at right angles to the normal and to each other; they take x and y.
     RAYSTEPS_TODO("12-soft-light", "turned_to");
-    return vector;
+    return glm::vec3(0.0F);
 }
 
 glm::vec2 unit_disk(const glm::vec2& u) {
@@ -26,7 +26,7 @@ glm::vec2 unit_disk(const glm::vec2& u) {
 glm::vec3 cap_direction(float height, const glm::vec2& u) {
     // TODO: All heights of the cap are equally likely; the radius at a height follows from the length of 1.
     RAYSTEPS_TODO("12-soft-light", "cap_direction");
-    return glm::vec3(0.0F, 0.0F, 1.0F);
+    return glm::vec3(0.0F);
 }
 
 float solid_angle_pdf(float area_pdf, const glm::vec3& from, const glm::vec3& position, const glm::vec3& normal) {
@@ -62,7 +62,7 @@ Color sampled_light(const HitRecord& hit, const Color& radiance, const LightSamp
 Ray lens_ray(const Camera& camera, const ViewFrame& frame, const Ray& ray, const glm::vec2& u) {
     // TODO: Find where the ray meets the plane of focus, and go there from another point of the lens.
     RAYSTEPS_TODO("12-soft-light", "lens_ray");
-    return ray;
+    return Ray{};
 }
 
 }  // namespace raysteps

@@ -62,6 +62,9 @@ private:
     std::array<int, k_parts> found_{};
 };
 
+/// From 0 to 1, going round. Even of two even numbers that have nothing to do with each other.
+float difference(float one, float other) { return one - other - std::floor(one - other); }
+
 /// The angle around 0 as a share of a whole turn.
 float turn(float x, float y) { return std::atan2(y, x) / (2.0F * k_pi) + 0.5F; }
 
@@ -140,14 +143,18 @@ TEST_CASE("unit_disk: points lie in the disk", "[12-soft-light][unit_disk]") {
 TEST_CASE("unit_disk: equal rings and equal slices get equally many", "[12-soft-light][unit_disk]") {
     Shares rings;
     Shares slices;
+    Shares differences;
     with_many([&](const glm::vec2& u) {
-        const glm::vec2 place = unit_disk(u);
-        rings.add(glm::dot(place, place) * 0.99999F);
-        slices.add(turn(place.x, place.y) * 0.99999F);
+        const glm::vec2 point = unit_disk(u);
+        rings.add(glm::dot(point, point) * 0.99999F);
+        slices.add(turn(point.x, point.y) * 0.99999F);
+        differences.add(difference(glm::dot(point, point), turn(point.x, point.y)));
     });
     INFO("the part of the disk within a radius r has the share r * r of its area");
     rings.check_even();
     slices.check_even();
+    INFO("radius and angle have nothing to do with each other");
+    differences.check_even();
 }
 
 TEST_CASE("cap_direction: unit vectors, no lower than the cap", "[12-soft-light][cap_direction]") {
@@ -167,18 +174,23 @@ TEST_CASE("cap_direction: equal solid angles get equally many", "[12-soft-light]
         CAPTURE(height);
         Shares heights;
         Shares slices;
+        Shares differences;
         with_many([&](const glm::vec2& u) {
             const glm::vec3 direction = cap_direction(height, u);
             heights.add((1.0F - direction.z) / height * 0.99999F);
             slices.add(turn(direction.x, direction.y) * 0.99999F);
+            differences.add(difference((1.0F - direction.z) / height, turn(direction.x, direction.y)));
         });
         INFO("a slice of a sphere of any height has the same share of its surface (Archimedes)");
         heights.check_even();
         slices.check_even();
+        INFO("height and angle have nothing to do with each other");
+        differences.check_even();
     }
 }
 
-TEST_CASE("cap_direction: a cap of a hundred-thousandth is not lost to rounding", "[12-soft-light][cap_direction]") {
+TEST_CASE("cap_direction: a cap of a billionth of the height is not lost to rounding",
+          "[12-soft-light][cap_direction]") {
     constexpr float k_height = 1e-9F;
     double sum = 0.0;
     with_many([&](const glm::vec2& u) {
@@ -200,6 +212,7 @@ TEST_CASE("solid_angle_pdf: distance squared over the cosine", "[12-soft-light][
 
 TEST_CASE("solid_angle_pdf: nothing is seen from behind, nor along the lamp", "[12-soft-light][solid_angle_pdf]") {
     const glm::vec3 down(0.0F, -1.0F, 0.0F);
+    REQUIRE(solid_angle_pdf(1.0F, {0.0F, 1.0F, 0.0F}, {0.0F, 3.0F, 0.0F}, down) > 0.0F);
     CHECK(solid_angle_pdf(1.0F, {0.0F, 5.0F, 0.0F}, {0.0F, 3.0F, 0.0F}, down) == 0.0F);
     CHECK(solid_angle_pdf(1.0F, {4.0F, 3.0F, 0.0F}, {0.0F, 3.0F, 0.0F}, down) == 0.0F);
 }
@@ -272,7 +285,7 @@ TEST_CASE("sample_disk: equal areas get equally many", "[12-soft-light][sample_d
     slices.check_even();
 }
 
-TEST_CASE("sample_disk: light below a disk has a closed form", "[12-soft-light][sample_disk][sampled_light]") {
+TEST_CASE("sampled_light: light below a disk has a closed form", "[12-soft-light][sampled_light]") {
     const DiskLight lamp{{0.0F, 2.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, 1.5F};
     const float mean = mean_light([&](const glm::vec2& u) { return sample_disk(lamp, k_floor.position, u); });
     INFO("straight below: radius^2 / (radius^2 + height^2)");
@@ -280,14 +293,14 @@ TEST_CASE("sample_disk: light below a disk has a closed form", "[12-soft-light][
 }
 
 TEST_CASE("sample_sphere: on the side that is seen, with one density", "[12-soft-light][sample_sphere]") {
-    const glm::vec3 from(0.0F, 0.0F, 0.0F);
+    const glm::vec3 from(5.0F, 5.0F, 0.0F);
     with_corners([&](const glm::vec2& u) {
         CAPTURE(u.x, u.y);
         const LightSample sample = sample_sphere(k_sphere, from, u);
         CHECK(glm::distance(sample.position, k_sphere.center) == about(3.0, 1e-3));
         CHECK_THAT(sample.normal, IsNear((sample.position - k_sphere.center) / 3.0F, 1e-3F));
         INFO("no farther away than where the view touches the sphere: a distance of 4");
-        CHECK(glm::length(sample.position) <= 4.01F);
+        CHECK(glm::distance(sample.position, from) <= 4.01F);
         INFO("the sine is 3/5, the cosine 4/5: a cap of the height 1/5");
         CHECK(sample.pdf == about(1.0 / (2.0 * std::numbers::pi * 0.2)));
     });
@@ -311,15 +324,18 @@ TEST_CASE("sample_sphere: a sphere that is small and far away", "[12-soft-light]
     const LightSample sample = sample_sphere(star, {0.0F, 0.0F, 0.0F}, {0.3F, 0.7F});
     INFO("a cap of the height 0.5e-8, which 1 - cos loses all digits of");
     CHECK(sample.pdf / 3.183099e7F == about(1.0, 1e-3));
-    CHECK(glm::distance(sample.position, star.center) <= 0.11F);
+    INFO("nearer by: a place on the sphere, though squares of distances have few digits left");
+    const SphereLight moon{{0.0F, 30.0F, 0.0F}, 0.1F};
+    CHECK(glm::distance(sample_sphere(moon, {0.0F, 0.0F, 0.0F}, {0.3F, 0.7F}).position, moon.center) <= 0.12F);
 }
 
 TEST_CASE("sample_sphere: from inside nothing is seen", "[12-soft-light][sample_sphere]") {
+    REQUIRE(sample_sphere(k_sphere, {0.0F, 1.0F, 1.0F}, {0.3F, 0.7F}).pdf > 0.0F);
     CHECK(sample_sphere(k_sphere, {0.0F, 4.0F, 1.0F}, {0.3F, 0.7F}).pdf == 0.0F);
     CHECK(sample_sphere(k_sphere, {0.0F, 5.0F, 0.0F}, {0.3F, 0.7F}).pdf == 0.0F);
 }
 
-TEST_CASE("sample_sphere: light below a sphere has a closed form", "[12-soft-light][sample_sphere][sampled_light]") {
+TEST_CASE("sampled_light: light below a sphere has a closed form", "[12-soft-light][sampled_light]") {
     const float mean = mean_light([&](const glm::vec2& u) { return sample_sphere(k_sphere, k_floor.position, u); });
     INFO("straight below: the square of the sine, as for the disk that looks the same");
     CHECK(mean == about(0.36, 0.02));
@@ -340,6 +356,8 @@ TEST_CASE("sampled_light: radiance times kd colour / pi times cos over pdf", "[1
 }
 
 TEST_CASE("sampled_light: black below the surface and without a density", "[12-soft-light][sampled_light]") {
+    const LightSample above{{1.0F, 2.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, 2.0F};
+    REQUIRE(sampled_light(k_floor, k_white, above).r > 0.0F);
     const LightSample below{{1.0F, -2.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, 2.0F};
     CHECK(sampled_light(k_floor, k_white, below) == k_black);
     const LightSample dark{{1.0F, 2.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, 0.0F};
@@ -350,7 +368,9 @@ namespace {
 
 const Camera k_camera{.from = {1.0F, 2.0F, 3.0F}, .lens_radius = 0.5F, .focal_distance = 4.0F};
 const ViewFrame k_frame{};  // looks along -z
+const ViewFrame k_from_above{.right = {1.0F, 0.0F, 0.0F}, .up = {0.0F, 0.0F, -1.0F}, .forward = {0.0F, -1.0F, 0.0F}};
 const Ray k_slanted{{1.0F, 2.0F, 3.0F}, {0.6F, 0.0F, -0.8F}};
+const Ray k_down{{1.0F, 2.0F, 3.0F}, {0.0F, -1.0F, 0.0F}};
 
 }  // namespace
 
@@ -376,6 +396,8 @@ TEST_CASE("lens_ray: all points of the lens are equally likely", "[12-soft-light
     });
     rings.check_even();
     slices.check_even();
+    INFO("seen from above, the lens is level");
+    with_corners([](const glm::vec2& u) { CHECK(lens_ray(k_camera, k_from_above, k_down, u).origin.y == about(2.0)); });
 }
 
 TEST_CASE("lens_ray: a lens without a size changes nothing", "[12-soft-light][lens_ray]") {
@@ -386,8 +408,8 @@ TEST_CASE("lens_ray: a lens without a size changes nothing", "[12-soft-light][le
     CHECK_THAT(ray.direction, IsNear(k_slanted.direction));
 }
 
-TEST_CASE("sample_disk, sampled_light: the handout's worked example",
-          "[12-soft-light][unit_disk][sample_disk][solid_angle_pdf][sampled_light]") {
+TEST_CASE("solid_angle_pdf, sampled_light: the handout's worked example",
+          "[12-soft-light][solid_angle_pdf][sampled_light]") {
     const DiskLight lamp{{3.0F, 4.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, 0.5F};
     INFO("an area of 0.7854, and the point in the middle: distance 5, cosine 0.8");
     const float pdf = solid_angle_pdf(1.0F / (k_pi * 0.25F), k_floor.position, lamp.center, lamp.normal);

@@ -12,7 +12,7 @@ namespace raysteps {
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& u) {
     // TODO: Lift a point that is uniform on the unit disk up to the half sphere above it.
     RAYSTEPS_TODO("13-path-tracing", "cosine_direction");
-    return normal;
+    return glm::vec3(0.0F);
 }
 
 float cosine_pdf(const glm::vec3& normal, const glm::vec3& direction) {

@@ -35,15 +35,14 @@ inline constexpr int k_sure_bounces = 3;
 /// Light that comes back along the ray: an estimate from one path, right on average. The path has a weight, white at
 /// first, and each light that it finds counts times the weight that it has there.
 /// - where it meets nothing: tracer.background(), and the path ends
-/// - at each hit: emitted_light(hit), if the ray comes from the eye or from a specular bounce. Behind any other bounce
-/// a
-///   lamp has been counted already, by the light sample of the hit before
+/// - at each hit: emitted_light(hit), if the ray comes from the eye or from a specular bounce. Behind any other
+///   bounce a lamp has been counted already, by the light sample of the hit before
 /// - at each hit: tracer.light_sample(hit), asked once
-/// - then tracer.scatter(hit), asked once: nothing ends the path, else scattered_ray(hit, sample) goes on, and the
+/// - then tracer.scatter(hit), asked once: std::nullopt ends the path; else scattered_ray(hit, sample) goes on, and the
 ///   weight is multiplied with the sample's
 /// - before the path goes on for the fourth time, and each time after that, it ends with the probability 1 - q, where
 ///   q is the survival_probability of the weight that it goes on with; if it goes on, the weight is divided by q.
-///   Random numbers for that come from `random`. Nothing else ends a path
+///   Random numbers for that come from `random`. Nothing else ends a path, however long it is
 [[nodiscard]] Color path_light(PathTracer& tracer, const Ray& ray, RandomStream& random);
 
 }  // namespace raysteps

@@ -64,7 +64,8 @@ def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         _must(["cmake", "-S", root, "-B", build, *generator], root)
         tests = [f"test-isolated-{step.number}" for step in steps]
-        _must(["cmake", "--build", build, "--parallel", "--target", "raytrace-mine", *tests], root)
+        at_once = str(os.cpu_count() or 1)
+        _must(["cmake", "--build", build, "--parallel", at_once, "--target", "raytrace-mine", *tests], root)
         _must(["ctest", "--test-dir", build, "--output-on-failure", "-R", "test-isolated"], root)
         for step in steps:
             for case in step.images:

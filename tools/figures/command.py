@@ -50,6 +50,10 @@ _DIAGRAMS = {
     "11-lift": meshes.lift,
     "11-texels": meshes.texels,
     "11-levels": meshes.levels,
+    "12-cone": sampling.cone,
+    "12-disk": sampling.disk,
+    "12-lens": sampling.lens,
+    "12-penumbra": sampling.penumbra,
 }
 _CURVES = {
     "03-highlight": plots.highlight,
@@ -99,6 +103,7 @@ def figures() -> list[Figure]:
     makers |= {f"{name}.png": partial(_shot, name) for name in renders.SHOTS}
     found = [Figure(file.rpartition(".")[0], f"{FOLDER}/{file}", make) for file, make in makers.items()]
     found.append(Figure("01-before", f"{FOLDER}/01-before.png", renders.untouched))
+    found.append(Figure("12-before", f"{FOLDER}/12-before.png", renders.hard_shadows))
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
     found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
     found.append(Figure("window", "docs/pictures/window.png", renders.window))

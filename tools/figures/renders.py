@@ -24,6 +24,7 @@ from tools.xvfb import NoScreen, hidden_screen
 
 _MAX_APART = 2.0  # of 255, on average: another compiler moves a few pixels
 _SMALL = ("--size", "240x180")
+_SQUARE = ("--size", "240x240")
 _TILE, _GAP, _LETTERS = 236, 6, 18
 _PAPER, _INK = (26, 27, 30), (235, 235, 235)
 
@@ -34,6 +35,7 @@ class Shot:
 
     scene: str
     args: tuple[str, ...]
+    size: tuple[str, str] = _SMALL
 
     @property
     def file(self) -> str:
@@ -41,7 +43,7 @@ class Shot:
         return self.scene if "." in self.scene else f"{self.scene}.nff"
 
     def pixels(self, kit: BuiltKit) -> Pixels:
-        return reference_picture(kit, kit.project.scenes / self.file, (*self.args, *_SMALL))
+        return reference_picture(kit, kit.project.scenes / self.file, (*self.args, *self.size))
 
 
 def _lesson(name: str, *args: str) -> Shot:
@@ -67,6 +69,10 @@ SHOTS = {
     "10-after": _lesson("three-spheres", "--step", "10", "--samples", "16", "--filter", "mitchell"),
     "11-before": Shot("generated/vase.pbrt", ("--step", "10")),
     "11-after": Shot("generated/vase.pbrt", ("--step", "11")),
+    "12-after": Shot("lessons/soft-shadows.pbrt", ("--step", "12", "--samples", "256")),
+    "12-focus": Shot("lessons/lens.pbrt", ("--step", "12", "--samples", "256")),
+    "13-before": Shot("lessons/cornell.pbrt", ("--step", "12", "--samples", "64"), _SQUARE),
+    "13-after": Shot("lessons/cornell.pbrt", ("--step", "13", "--samples", "256"), _SQUARE),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
 
@@ -78,6 +84,23 @@ def untouched(kit: BuiltKit) -> Pixels:
     return (
         Variant(kit, step, stub_for(kit.project, step)).draw(f"scenes/{shot.scene}.nff", (*shot.args, *_SMALL)).pixels
     )
+
+
+def hard_shadows(kit: BuiltKit) -> Pixels:
+    """The scene of step 12 with lamps that are nearly points, and send as much light."""
+    shot = SHOTS["12-after"]
+    text = (kit.project.scenes / shot.file).read_text(encoding="ascii")
+    for radius, scale in (("0.75", "18"), ("0.2", "14")):
+        more = (float(radius) / _TINY) ** 2 * float(scale)
+        text = text.replace(f'"float scale" {scale}\n', f'"float scale" {more:g}\n')
+        text = text.replace(f'"float radius" {radius}\n', f'"float radius" {_TINY}\n')
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        scene = Path(folder) / "hard.pbrt"
+        scene.write_text(text, encoding="ascii")
+        return reference_picture(kit, scene, (*shot.args, *_SMALL))
+
+
+_TINY = 0.01
 
 
 def contact_sheet(kit: BuiltKit) -> Pixels:

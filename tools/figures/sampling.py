@@ -1,4 +1,5 @@
-"""Steps 10 and 13: where samples lie, what they are worth, and what a screen is sent; where paths go."""
+"""Steps 10, 12 and 13: where samples lie, in a pixel and on lamps, what they are worth, what a screen is sent, and
+where paths go."""
 
 import math
 
@@ -6,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tools.bench.charts import Axis, Chart, Series, log_axis, svg_text
-from tools.figures.drawing import Drawing
+from tools.figures.drawing import Drawing, polar, toward
 
 _WIDE = 560.0
 _SEED = 10
@@ -136,6 +137,130 @@ def screen() -> str:
     return svg_text([Chart("the curve of a screen", x, y, series)], width=_WIDE, description=words, plate=True)
 
 
+# Step 12.
+
+
+def disk() -> Drawing:
+    """Random points of a disk, with the radius as it is drawn, and with its root."""
+    figure = Drawing(
+        640,
+        250,
+        "300 points of a disk",
+        "Two disks with 300 points each, and a dashed circle at half of the radius. Where the radius is a random"
+        " number, half of the points crowd within that circle. Where it is the root of one, a quarter of them do, and"
+        " points lie evenly.",
+    )
+    draw = np.random.default_rng(_SEED)
+    numbers = draw.random((300, 2))
+    for number, name in enumerate(("radius = u.x", "radius = sqrt(u.x)")):
+        center, size = (170.0 + 300 * number, 116.0), 96.0
+        figure.circle(center, size)
+        figure.circle(center, size / 2, "l muted dash")
+        for share, turn in numbers:
+            radius = share if number == 0 else math.sqrt(share)
+            figure.dot(polar(center, 360 * turn, size * radius), "blue", 2.2)
+        figure.text((center[0], 238), name, "small", "middle")
+    return figure
+
+
+def penumbra() -> Drawing:
+    """A lamp, what stands before it, and three places on the floor."""
+    figure = Drawing(
+        640,
+        270,
+        "A soft edge of shadow",
+        "A lamp above, a plate below it, and the floor. From the left all of the lamp is seen, and it is light there."
+        " From the right nothing of it is seen. From the place between them one half of the lamp is seen.",
+    )
+    left, right, edge, floor = (200.0, 30.0), (320.0, 30.0), (300.0, 130.0), 225.0
+    figure.line((30, floor), (610, floor), "muted")
+    figure.line(edge, (470, 130), "ink thick")
+    ends = [_on_floor(end, edge, floor) for end in (right, left)]
+    figure.polygon([(ends[0], floor), (ends[1], floor), edge], "w-grey")
+    figure.line(left, right, "red thick")
+    for end, place in zip((right, left), ends, strict=True):
+        figure.line(end, (place, floor), "muted thin dash")
+    middle = (left[0] + right[0]) / 2
+    half = _on_floor((middle, 30.0), edge, floor)
+    for at, color in ((110.0, "green"), (half, "blue"), (500.0, "ink")):
+        figure.dot((at, floor), color, 5)
+    for end in (left, (middle, 30.0)):
+        figure.line((half, floor), end, "blue thin")
+    for end in (left, right):
+        figure.line((110, floor), end, "green thin")
+    figure.text((110, 252), "all of the lamp", "small t-green", "middle")
+    figure.text((half, 252), "half of it", "small t-blue", "middle")
+    figure.text((500, 252), "nothing", "small", "middle")
+    figure.text((330, 35), "lamp", "small t-red")
+    return figure
+
+
+def _on_floor(lamp: tuple[float, float], edge: tuple[float, float], floor: float) -> float:
+    """Where the line from the lamp over the edge meets the floor."""
+    return lamp[0] + (edge[0] - lamp[0]) * (floor - lamp[1]) / (edge[1] - lamp[1])
+
+
+def cone() -> Drawing:
+    """What is seen of a sphere, and the cap of directions."""
+    figure = Drawing(
+        640,
+        300,
+        "The cone of a sphere",
+        "From a place on the left two lines touch a sphere with the centre c on the right. The radius to where a line"
+        " touches is at right angles to it. Around the place a part of a unit circle lies in the cone: its cap, of the"
+        " height h = 1 - cos.",
+    )
+    place, center, radius = (60.0, 140.0), (470.0, 140.0), 122.0
+    distance = center[0] - place[0]
+    half = math.degrees(math.asin(radius / distance))
+    figure.circle(center, radius, "w-red")
+    figure.circle(center, radius)
+    for sign in (1, -1):
+        touch = polar(center, sign * (90 + half), radius)
+        figure.line(place, toward(place, touch, 430), "muted thin dash")
+    touch = polar(center, 90 + half, radius)
+    figure.line(center, touch, "red")
+    figure.line(place, center, "muted")
+    unit = 240.0
+    figure.arc(place, unit, -half, half, "blue thick")
+    foot = place[0] + unit * math.cos(math.radians(half))
+    figure.line((foot, place[1]), (place[0] + unit, place[1]), "blue thick")
+    figure.line(polar(place, half, unit), polar(place, -half, unit), "blue thin dash")
+    figure.dot(place)
+    figure.dot(center, "red")
+    figure.text((place[0] + unit + 8, place[1] - 8), "h", "math t-blue")
+    figure.text((center[0] + 10, place[1] + 20), "c", "math t-red")
+    figure.text((touch[0] + 24, touch[1] + 46), "r", "math t-red")
+    figure.text((170, 132), "d", "math")
+    figure.text((56, 130), "x", "math", "end")
+    figure.text((320, 286), "sin = r / d; of all directions in the cone each is as likely", "small t-muted", "middle")
+    return figure
+
+
+def lens() -> Drawing:
+    """Rays of one pixel through a lens."""
+    figure = Drawing(
+        640,
+        250,
+        "Rays through a lens",
+        "Three rays start at three points of a lens on the left. They meet in the plane of focus, where a point is"
+        " sharp. Behind it they part again: what lies there is seen at several places, and becomes blurred.",
+    )
+    middle, sharp = (90.0, 130.0), (390.0, 95.0)
+    figure.line((90, 60), (90, 200), "ink thick")
+    figure.line((390, 25), (390, 215), "muted dash")
+    for shift, color in ((0, "ink"), (-62, "blue"), (62, "blue")):
+        start = (middle[0], middle[1] + shift)
+        figure.arrow(start, toward(start, sharp, 1.78 * math.dist(start, sharp)), f"{color} thin")
+        figure.dot(start, color)
+    figure.dot(sharp, "red", 5)
+    figure.line((90, 226), (390, 226), "muted thin")
+    figure.text((240, 243), "focal_distance, along the view", "small t-muted", "middle")
+    figure.text((90, 46), "lens", "small", "middle")
+    figure.text((398, 40), "plane of focus", "small t-muted")
+    return figure
+
+
 # Step 13: where a path goes on, and what it finds.
 
 
@@ -200,9 +325,9 @@ def path() -> Drawing:
         ("the path", "t-blue"),
         ("light samples, each", "t-red"),
         ("times the weight there", "t-red"),
-        ("crossed out: the sample of", ""),
-        ("the hit before has", ""),
-        ("brought that light", ""),
+        ("crossed out: counted", ""),
+        ("by the sample of the", ""),
+        ("hit before it", ""),
     )
     for number, (line, color) in enumerate(words):
         figure.text((466, 78 + 26 * number + (12 if number > 2 else 0)), line, f"small {color}".strip())

@@ -67,7 +67,7 @@ def script(folder: Path, text: str) -> Path:
     ("words", "says"),
     [
         (["scene.nff", "1", "2"], "scene.nff: is not there; expected a scene"),
-        (["scene.nff", "1", "2", "--step", "12"], "there is no step '12'"),
+        (["scene.nff", "1", "2", "--step", "16"], "there is no step '16'"),
         (["scene.nff", "1", "2", "--impl", "reference", "--against", "reference"], "expected your own steps"),
     ],
 )

@@ -9,6 +9,7 @@ from browser import OpenPage, assert_accessible
 from inspect_records import ball_record
 
 from raysteps.inspector.divergence import find_divergence
+from raysteps.inspector.model import Number
 from raysteps.inspector.pixel_page import write_page
 from raysteps.report.page import pixel_data
 
@@ -87,6 +88,20 @@ def test_the_view_turns_by_keys_and_by_dragging(page: "Page") -> None:
     assert dragged != turned
     page.get_by_role("button", name="From the eye").click()
     assert page.evaluate(where) == pytest.approx([0, 0, 5])
+
+
+@pytest.mark.parametrize("wrong", ["nan", "inf", "-inf"])
+def test_numbers_that_are_none_are_drawn_somewhere(wrong: Number, tmp_path: Path, open_page: OpenPage) -> None:
+    record = ball_record()
+    ray, shadow = record.ray, record.ray.lights[0].rays[0]
+    assert ray.hit is not None
+    ray.hit.position = shadow.origin = ray.bounces[0].direction = [wrong, 0, wrong]
+    shadow.limit = ray.boxes[0].min[1] = record.frame.half_width = wrong
+    write_page(record, None, None, tmp_path / "inside.html")
+    page = open_page(tmp_path / "inside.html")
+    assert page.evaluate(_COUNT_COLORS)["drawn"] > 5000
+    numbers = page.evaluate("JSON.stringify(document.querySelector('pixel-inside').spaces)")
+    assert "null" not in numbers.replace('"hit":null', "").replace('"level":null', "")
 
 
 def test_what_a_scene_is_called_stays_text(page: "Page") -> None:

@@ -104,6 +104,13 @@ def test_each_fault_has_its_words(actual: Estimates, said: str) -> None:
     assert said in _problem(actual)
 
 
+def test_infinite_light_is_wrong_and_can_be_told() -> None:
+    found = _estimates()
+    found.batches[3] = np.inf
+    assert "infinite" in _problem(found)
+    assert "inf" in words_of_estimates(found)
+
+
 def test_the_same_stream_must_give_the_same() -> None:
     found = _estimates()
     assert "the same stream" in _problem(Estimates(found.size, found.cost, found.batches, found.first, (1.0, 0.5, 0.1)))

@@ -9,9 +9,12 @@ import pytest
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.functions import AGAIN
+from raysteps.judge.estimates import read_estimates
+from raysteps.judge.functions import AGAIN, Case, functions_of
 from raysteps.judge.hidden_tests import make_cases, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
+from raysteps.judge.protocol import Real, TokenReader
+from raysteps.judge.random_source import RandomSource
 from raysteps.judge.worker import reference_answers
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -114,3 +117,16 @@ def test_the_reference_may_say_as_much_as_a_student(kit: BuiltKit, tmp_path: Pat
     said = reference_answers(replace(kit, folder=tmp_path), cases.encode()).outcome.stdout
     assert len(said) > 2 << 20
     assert said.endswith("\nend 20000\n")
+
+
+def test_estimates_stop_when_their_mean_is_known(worker: Path) -> None:
+    """At the least number: the error is the one that was asked for, and half of the estimates would not have done."""
+    furnace = functions_of("13")["path_light"].by_name["a furnace"]
+    case = Case("path_light", "a furnace", furnace.make(RandomSource("1")))
+    precision = case.inputs["precision"]
+    assert isinstance(precision, Real)
+    out = _run(worker, case.line(0) + "\n").stdout
+    answer = next(line for line in out.splitlines() if line.startswith("done ")).split(" ", 2)[2]
+    found = read_estimates(TokenReader(answer.removeprefix("often ")))
+    error = float(found.error.max() / found.mean.max())
+    assert 0.7 * precision.value < error < 1.1 * precision.value

@@ -16,8 +16,7 @@ from raysteps.common.markdown import BadFormula, anchors, formulas, mathml
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
 from tools.website.build import check_place, put
-from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, dead_links, documents
-from tools.website.formulas import bad_formulas
+from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, bad_formulas, dead_links, documents
 from tools.website.made_pages import api_pages, command_page
 
 _TOGETHER = pytest.mark.xdist_group("site")

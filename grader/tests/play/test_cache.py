@@ -1,5 +1,7 @@
 """The page's cache holds what this page and the last other one are made of."""
 
+import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
@@ -7,8 +9,8 @@ import pytest
 from raysteps.course.project import Project
 from raysteps.play import web_kit
 from raysteps.play.packages import clear, written_once
-from raysteps.play.web_clang import WebClang
-from raysteps.play.web_kit import WebKit
+from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
+from raysteps.play.web_kit import Source, Wanted, WebKit, looked_for
 
 pytestmark = pytest.mark.portable
 
@@ -59,23 +61,24 @@ class _Installed:
         return [self._folder]
 
 
-def test_another_library_is_another_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def include(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Where the libraries' headers are."""
     include = tmp_path / "include"
-    deep = include / "glm" / "detail" / "type.inl"
-    for path in (
-        deep,
-        include / "glm" / "glm.hpp",
-        include / "catch2" / "catch.hpp",
-        include / "stb_image.h",
-        include / "stb_image_write.h",
-    ):
+    for name in ("glm/detail/type.inl", "glm/glm.hpp", "catch2/catch.hpp", "stb_image.h", "stb_image_write.h"):
+        path = include / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(path.name)
     monkeypatch.setattr(web_kit, "Sources", lambda _project: _Installed(include))
     monkeypatch.setattr(web_kit, "read_all_steps", lambda _project: [])
+    return include
+
+
+def test_another_library_is_another_folder(include: Path, tmp_path: Path) -> None:
+    deep = include / "glm" / "detail" / "type.inl"
 
     def libraries() -> Path:
-        return WebKit(Project(tmp_path), WebClang(tmp_path, tmp_path)).libraries
+        return WebKit(Project(tmp_path), WebClang(tmp_path, tmp_path / "cache")).libraries
 
     before = libraries()
     assert _cache(before) == [
@@ -91,3 +94,94 @@ def test_another_library_is_another_folder(tmp_path: Path, monkeypatch: pytest.M
     assert after.name != before.name
     assert (after / "glm" / "detail" / "type.inl").read_text() == "upgraded"
     assert (before / "glm" / "detail" / "type.inl").read_text() == "type.inl"
+
+
+def _include(name: str) -> str:
+    return f'#include "{name}.hpp"\n'
+
+
+class _Clang(WebClang):
+    """Makes of a source the texts of all that it includes, and tells what it has read as clang does."""
+
+    def __init__(self, root: Path) -> None:
+        super().__init__(root, root / "cache")
+        self.compiled: list[str] = []
+
+    @property
+    def system(self) -> Path:
+        return self.wasm.parent
+
+    def compile_command(self, optimise: str, flags: Sequence[str], *, header: bool = False) -> list[str]:
+        return [optimise, INPUT, "-o", OUTPUT]
+
+    def make(self, words: Sequence[str], places: Mapping[str, Path]) -> None:
+        source = words[1]
+        self.compiled.append(source)
+        read, waiting = dict[str, str](), [source]
+        while waiting:
+            name = waiting.pop()
+            read[name] = (places["/kit"] / name.removeprefix("/kit/")).read_text()
+            waiting += [f"/kit/framework/{found}" for found in re.findall(r'"(.*)"', read[name])]
+        (places["/work"] / "made").write_text("".join(read.values()))
+        lines = " \\\n  ".join(["/usr/include/vector", *read])
+        (places["/work"] / "read").write_text(f"made: {lines}\n")
+
+
+@pytest.mark.usefixtures("include")
+def test_what_is_compiled_anew_has_read_what_changed(tmp_path: Path) -> None:
+    project = Project(tmp_path)
+    clang = _Clang(tmp_path)
+    texts = {"a.cpp": _include("a"), "b.cpp": _include("b"), "a.hpp": _include("c"), "b.hpp": "b", "c.hpp": "c"}
+    for name, text in texts.items():
+        (tmp_path / "framework").mkdir(exist_ok=True)
+        (tmp_path / "framework" / name).write_text(text)
+
+    def made() -> tuple[list[str], list[str]]:
+        """What was compiled, and the objects."""
+        kit = WebKit(project, clang)
+        clang.compiled.clear()
+        objects = [kit._made(Wanted(Source(f"framework/{name}"))) for name in ("a.cpp", "b.cpp")]
+        clear(tmp_path / "cache", kit.used)
+        return [name.removeprefix("/kit/framework/") for name in clang.compiled], [one.read_text() for one in objects]
+
+    def write(name: str, text: str) -> None:
+        (tmp_path / "framework" / name).write_text(text)
+
+    assert made() == (["a.cpp", "b.cpp"], [f"{_include('a')}{_include('c')}c", f"{_include('b')}b"])
+    assert made()[0] == []
+    write("c.hpp", "other")
+    assert made() == (["a.cpp"], [f"{_include('a')}{_include('c')}other", f"{_include('b')}b"])
+    write("c.hpp", "c")
+    assert made() == ([], [f"{_include('a')}{_include('c')}c", f"{_include('b')}b"]), (
+        "what was made before is still there"
+    )
+    write("b.hpp", _include("c"))
+    assert made()[0] == ["b.cpp"]
+    write("c.hpp", "both")
+    assert made()[0] == ["a.cpp", "b.cpp"]
+    write("a.cpp", _include("b"))
+    assert made()[0] == ["a.cpp"]
+    write("new.hpp", "")
+    assert made()[0] == []
+    (tmp_path / "c.hpp").touch()
+    assert made()[0] == ["a.cpp", "b.cpp"], "where it was looked for, too"
+
+
+def test_what_a_compiler_has_looked_for(tmp_path: Path) -> None:
+    ray, own = tmp_path / "framework/core/ray.hpp", tmp_path / "steps/01-y/y.hpp"
+    for path, text in ((ray, "#include <vector>\n"), (own, '#if __has_include("a/b.hpp")\n')):
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+    first, second = "/parts/a.hpp /kit/framework/core/ray.hpp", "/kit/steps/02-x/../01-y/y.hpp /usr/include/cmath"
+    assert looked_for(tmp_path, f"made: {first} \\\n  {second} \\\n /work/b\n") == [
+        "a/b.hpp",
+        "framework/a/b.hpp",
+        "framework/absent/a/b.hpp",
+        "framework/absent/vector",
+        "framework/core/ray.hpp",
+        "framework/core/vector",
+        "framework/vector",
+        "steps/01-y/a/b.hpp",
+        "steps/01-y/y.hpp",
+        "vector",
+    ]

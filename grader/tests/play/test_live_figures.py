@@ -204,6 +204,14 @@ def _assert_fast(page: "Page", name: str) -> None:
     assert times[len(times) // 10] < 1000 / 60
 
 
+def _assert_accessible_in_the_dark(page: "Page") -> None:
+    """On a phone."""
+    page.emulate_media(color_scheme="dark")
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)
+
+
 def test_a_ray_is_bent_by_glass_until_nothing_gets_out(
     opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
 ) -> None:
@@ -296,6 +304,7 @@ def test_the_light_between_two_mirrors_grows_with_the_limit(
     says(words, r"With a limit of 8, 1\.99\d+ arrives")
     _assert_fast(page, "mirrors")
     assert_accessible(page)
+    _assert_accessible_in_the_dark(page)
 
 
 def test_boxes_light_up_along_a_ray_that_is_dragged(
@@ -337,3 +346,4 @@ def test_each_cut_has_its_cost(opened: Opened, project: Project, steps: list[Ste
     _assert_fast(page, "cuts")
     assert_no_sideways_scrolling(page)
     assert_accessible(page)
+    _assert_accessible_in_the_dark(page)

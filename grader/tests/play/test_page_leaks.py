@@ -1,5 +1,6 @@
 """A page that was made from stubs may go out; one that holds a solution anywhere is refused, and the file is named."""
 
+import argparse
 import gzip
 import io
 import os
@@ -17,10 +18,8 @@ from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
-from raysteps.play.packages import CLANG, fetch, registry_of
-from raysteps.play.play_page import PlayPage, packed, publish
-from raysteps.play.web_clang import WebClang
-from raysteps.play.web_kit import Parts, Source, Wanted, WebKit
+from raysteps.play.packages import registry_of
+from raysteps.play.play_page import PlayPage, packed
 from raysteps.release.leaks import find_leaks
 from raysteps.release.page_parts import Problem, archive_members, defined_symbols, look_into
 from raysteps.release.secrets import Secrets, gather
@@ -43,28 +42,17 @@ def site(project: Project) -> Path:
         return PlayPage(project, registry_of(None)).make()
 
 
-class _OfStubs(WebKit):
-    """The whole kit, with stubs in place of the reference's steps."""
-
-    def _wanted(self) -> dict[str, list[Wanted]]:
-        stubs = {f"step-{step.number}": [Wanted(Source(f"steps/{step.path.as_posix()}"))] for step in self.steps}
-        return super()._wanted() | stubs
-
-
 @pytest.fixture(scope="module")
-def stubs(project: Project, site: Path) -> Parts:
-    cache = project.build / "play"
-    return _OfStubs(project, WebClang(fetch(CLANG, cache / "packages", registry_of(None)), cache)).parts()
-
-
-@pytest.fixture(scope="module")
-def of_students(site: Path, stubs: Parts, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("students") / "play"
-    publish(site, folder)
-    page = folder / "index.html"
-    page.write_bytes(page.read_bytes().replace(b'{"model":"reference"', b'{"model":"stub"', 1))
-    (folder / "kit.tar.gz").write_bytes(packed(stubs.files))
-    return folder
+def of_students(project: Project, site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """As a release of two steps writes it beside itself."""
+    folder = tmp_path_factory.mktemp("students")
+    words = ["--out", str(folder / "course"), "--steps", "1-2", "--play", str(folder / "play")]
+    parser = argparse.ArgumentParser()
+    release.add_arguments(parser)
+    assert release.run(project, parser.parse_args(words), Console(quiet=True)) == 0
+    assert {path.name for path in folder.iterdir()} == {"course", "play"}
+    assert not (folder / "course" / "build").exists()
+    return folder / "play"
 
 
 def _unpacked(path: Path) -> dict[str, bytes]:
@@ -103,6 +91,14 @@ def test_a_page_of_stubs_may_go_out_as_a_folder_and_as_a_zip(
             archive.write(path, path.relative_to(of_students.parent))
     assert release.check(secrets, tmp_path / "page.zip", Console()) == 0
     assert capsys.readouterr().out == "No solution was found in it.\n"
+
+
+def test_a_page_of_a_release_has_its_steps_and_is_published(of_students: Path, steps: list[Step]) -> None:
+    page = (of_students / "index.html").read_text("utf-8")
+    assert "<html data-published " in page
+    assert [step.id for step in steps if f'"id":"{step.id}"' in page] == [step.id for step in steps[:2]]
+    assert sorted(path.name for path in (of_students / "steps").glob("*.html")) == ["01.html", "02.html"]
+    assert "kit/steps/03-phong-shading/phong_shading.hpp" not in _unpacked(of_students / "system.tar.gz")
 
 
 def test_a_page_of_the_whole_kit_is_refused(site: Path, project: Project, secrets: Secrets) -> None:
@@ -171,8 +167,8 @@ def test_another_compiler_and_other_libraries_are_not_believed(site: Path) -> No
     assert found == ["is not packed as the page packs it, or holds more"]
 
 
-def test_archives_are_read_as_llvm_writes_them(stubs: Parts) -> None:
-    (archive,) = [data for name, data in stubs.files.items() if name.endswith(".a")]
+def test_archives_are_read_as_llvm_writes_them(site: Path) -> None:
+    (archive,) = [data for name, data in _unpacked(site / "kit.tar.gz").items() if name.endswith(".a")]
     members = dict(archive_members(archive))
     assert len(members) > 20
     assert all(name.endswith(".o") and data.startswith(b"\0asm") for name, data in members.items())

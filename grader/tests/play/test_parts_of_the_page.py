@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from urllib.error import HTTPError
 from urllib.request import urlopen
 
+import numpy as np
 import pytest
 from browser import Watched
 from catch2_words import COMPARISONS
@@ -21,6 +22,7 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import twice_message, undefined_message
 from raysteps.images.compare import compare, parse_ppm
+from raysteps.images.noise import Estimates, bytes_of, compare_estimates
 from raysteps.play.play_page import PlayServer, first_includes, handout, publish, refuse_to_publish, with_places
 from raysteps.toolchain.catch2 import parse_report
 
@@ -56,30 +58,38 @@ def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, ste
 
     numbers = {step.id: step.number for step in steps}
     for step in steps:
-        text = handout((project.steps / step.id / "README.md").read_text("utf-8"), numbers, shown)
+        text = handout((project.steps / step.id / "README.md").read_text("utf-8"), numbers, shown, lambda name: None)
+        assert text.count("are typed where the kit is installed") == 1, "before the first command"
         assert "../" not in text, step.id
         assert "\ue000" not in text
         assert "<table " in text
     assert all((project.root / path).is_file() for path in asked)
-    text = handout("[next](../02-intersection/README.md) [x](../../docs/judge.md) $a^2$ `$b$`", numbers, shown)
+    text = handout(
+        "[next](../02-intersection/README.md) [x](../../docs/judge.md) $a^2$ `$b$`", numbers, shown, lambda name: None
+    )
     assert '<a href="#02">next</a> x <math' in text
     assert "<code>$b$</code>" in text
+    text = handout("`a.hpp` `b.cpp` `./raysteps` `c::d`", numbers, shown, {"a.hpp": "texts/a.hpp.txt"}.get)
+    assert '<a href="texts/a.hpp.txt" class="play-text"><code>a.hpp</code></a> <code>b.cpp</code> <code>./' in text
+    assert "are typed" not in text
 
 
 _PAGE = """<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">
 <script type="module" src="check.js"></script>"""
-_CHECK = """import { linkerWords, readReport } from "./report.js";
+_CHECK = """import { linkerWords, printedIn, readReport } from "./report.js";
+import { compareEstimates, readEstimates } from "./noise.js";
 import { compare, readPpm } from "./pictures.js";
 import { firstIncludes } from "./includes.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
 const judge = (mine, reference, most) => compare(picture(mine), picture(reference), most);
-window.checks = { linkerWords, readReport, firstIncludes, judge };
+const judgeNoise = (bytes, noise) => compareEstimates(readEstimates(new Uint8Array(bytes)), noise);
+window.checks = { linkerWords, printedIn, readReport, firstIncludes, judge, judgeNoise };
 """
 
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[PlayServer]:
-    for name in ("report.js", "pictures.js", "includes.js"):
+    for name in ("report.js", "noise.js", "pictures.js", "includes.js"):
         (tmp_path / name).write_bytes(files("raysteps.play").joinpath("static", name).read_bytes())
     (tmp_path / "index.html").write_text(_PAGE)
     (tmp_path / "check.js").write_text(_CHECK)
@@ -210,6 +220,9 @@ def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server
             }
             assert one["failure"] == failure
     assert page.evaluate("checks.readReport('<Catch2TestRun><TestCase/></Catch2TestRun>')") is None
+    streams = "<StdOut>\nat 1 &lt; 2\n</StdOut><StdErr>x</StdErr>"
+    printed = f"<Catch><TestCase><OverallResult>{streams}</OverallResult></TestCase></Catch>"
+    assert page.evaluate("text => checks.printedIn(text)", printed) == "at 1 < 2\nx"
     assert page.evaluate("checks.readReport('<Catch2TestRun>')") is None
 
 
@@ -269,3 +282,39 @@ def test_the_page_judges_a_picture_as_the_grader_does(
     wanted = compare(parse_ppm(mine), parse_ppm(reference), most)
     found = page.evaluate(f"checks.judge({json.dumps(list(mine))}, {json.dumps(list(reference))}, {most})")
     assert found == {"passed": wanted.passed, "message": wanted.message}
+
+
+@pytest.mark.parametrize(
+    ("factor", "part", "shape", "lost"),
+    [
+        (1.0, 1.0, 1.0, False),
+        (0.8, 1.0, 1.0, False),
+        (1.25, 1.0, 1.0, False),
+        (1.0, 0.5, 1.0, False),
+        (1.0, 1.0, 0.2, False),
+        (1.0, 1.0, 1.0, True),
+    ],
+)
+def test_the_page_judges_a_noisy_picture_as_the_grader_does(
+    watched: Watched, server: PlayServer, factor: float, part: float, shape: float, lost: bool
+) -> None:
+    rng = np.random.default_rng(7)
+    light = np.full((20, 27, 3), (0.6, 0.4, 0.2))
+
+    def drawn(scene: np.ndarray, samples: int, shape: float = 1.0) -> Estimates:
+        found = rng.gamma(shape, scene / shape, (samples, *scene.shape))
+        return Estimates(found.mean(axis=0), found.var(axis=0, ddof=1) / samples)
+
+    parts = drawn(light, 64).in_parts()
+    scene = factor * light
+    scene[8:16, 16:24] *= part
+    mine = drawn(scene, 16, shape)
+    if lost:
+        mine.mean[3, 4, 0] = np.nan
+    wanted = compare_estimates(mine, parts, 4, 2.0)
+    rows = np.concatenate([parts.mean, parts.variance], axis=2).reshape(-1, 6).tolist()
+    noise = {"width": 27, "height": 20, "most": 2.0, "factor": 4, "parts": rows}
+    page = _open(watched, server)
+    found = page.evaluate(f"checks.judgeNoise({json.dumps(list(bytes_of(mine)))}, {json.dumps(noise)})")
+    assert found == {"passed": wanted.passed, "message": wanted.message}
+    assert wanted.passed == ((factor, part, shape, lost) == (1.0, 1.0, 1.0, False))

@@ -1,6 +1,7 @@
 """The whole page in a real browser: write, compile, test, draw, stop, keep."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -18,13 +19,16 @@ import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
 from play_pages import STARTED, save, says, with_packages, write
 
+from raysteps.cli.render import build_program
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import missing_message, undefined_message
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer, publish
+from raysteps.report.wording import inspect_options
 from raysteps.submission.load import load_submission
+from raysteps.toolchain.cmake import release_tree
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -116,6 +120,18 @@ def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str
     expect(failed).to_contain_text("point_at walks along the ray")
     expect(failed.locator("dd").first).to_have_text("point_at(ray, 0) = (1, 2, 3) within 0.00037")
     expect(failed).to_contain_text("expected: origin + distance * direction")
+    failed.get_by_role("link", name="camera_rays_test.cpp:").click()
+    test = page.get_by_role("dialog", name="steps/01-camera-rays/camera_rays_test.cpp")
+    expect(test.locator("mark")).to_contain_text("point_at(ray")
+    expect(test.locator("mark")).to_be_in_viewport()
+    assert_accessible(page)
+    test.get_by_role("button", name="Close").click()
+    page.locator("#play-handout").get_by_role("link", name="framework/core/camera.hpp").click()
+    header = page.get_by_role("dialog", name="framework/core/camera.hpp")
+    expect(header).to_contain_text("struct ViewFrame {")
+    page.keyboard.press("Escape")
+    page.locator("#play-texts").get_by_role("link", name="camera_rays.hpp").click()
+    expect(page.get_by_role("dialog")).to_contain_text("glm::vec3 point_at(const Ray& ray, float distance);")
 
 
 def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> None:
@@ -124,7 +140,9 @@ def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> No
     wrong = solved["01-camera-rays"].replace(_POINT, "return ray.orgin;")
     line = next(at for at, text in enumerate(wrong.splitlines(), start=1) if "orgin" in text)
     save(page, wrong)
+    expect(page.locator("#play-stale")).to_be_hidden()
     _says(page, r"It does not compile\.")
+    expect(page.locator("#play-stale")).to_be_visible()
     expect(page.locator("#play-problems")).to_contain_text("no member named 'orgin' in 'raysteps::Ray'")
     expect(page.locator(".cm-lintRange-error")).to_have_text("orgin")
     page.locator("#play-problems button").first.click()
@@ -170,12 +188,19 @@ def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, st
 
     throws = "#include <stdexcept>\n" + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
     save(page, throws)
+    _says(page, r"Compiling what you include")
     _says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("threw: oh no")
     deep = "return distance > 1e9F ? ray.origin : point_at(ray, distance + 1.0F) + ray.origin;"
     save(page, solved["01-camera-rays"].replace(_POINT, deep))
     _says(page, r"11 of 12 tests pass")
-    expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed")
+    expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed (")
+    expect(page.locator("#play-tests .panel")).to_contain_text("a recursion without an end).")
+    told = f'std::puts("at 42"); std::fputs("at 43", stderr); {_POINT}'
+    save(page, throws.replace('throw std::runtime_error("oh no");', told))
+    _says(page, r"Step 01 is right", timeout=STARTED)
+    page.get_by_text("What the programs print").click()
+    expect(page.locator("#play-console")).to_have_text(re.compile(r"at 42\s+at 43"))
 
 
 def _begin_again(page: "Page") -> None:
@@ -312,6 +337,69 @@ def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[st
     expect(panel).to_have_count(0)
 
 
+def test_a_pixel_is_followed_to_its_end(
+    page: "Page", steps: list[Step], solved: dict[str, str], project: Project
+) -> None:
+    from playwright.sync_api import expect
+
+    step = steps[5]
+    page.locator("#play-step").select_option(step.number)
+    _says(page, rf"Step {step.number}: 0 of \d+ tests pass", timeout=STARTED)
+    save(page, solved[step.id])
+    _says(page, rf"Step {step.number} is right", timeout=STARTED)
+    picture = page.locator("#play-first .play-picture")
+    stage = picture.locator(".compare-stage").bounding_box()
+    assert stage is not None
+    page.mouse.click(stage["x"] + 0.4 * stage["width"], stage["y"] + 0.55 * stage["height"])
+    button = picture.get_by_role("button", name="Look inside pixel")
+    x, y = re.findall(r"\d+", button.inner_text())
+    button.click()
+    dialog = page.get_by_role("dialog", name=f"Inside pixel ({x}, {y}) of {step.images[0].name}")
+    rays = dialog.locator(".ray-title")
+    expect(rays.first).to_have_text("eye ray", timeout=STARTED)
+
+    case = step.images[0]
+    program = build_program(release_tree(project), "inspect", "reference")
+    words = [program, project.root / case.scene, x, y, *inspect_options(case.args)]
+    native = subprocess.run(words, check=True, capture_output=True, text=True).stdout
+    lines = [" ".join(line.split()) for line in native.splitlines() if line.strip()]
+    shown = dialog.locator("summary, .inside-line, div.ray, .boxes li")
+    found = [" ".join(text.removesuffix(_SHOW).split()) for text in shown.evaluate_all(_TEXTS)]
+    texts = ["\n".join(one[1:]) for one in (found, lines)]  # the first line says where the scene lies
+    words_here, words_there = (re.sub(_NUMBER, "#", text) for text in texts)
+    assert words_here == words_there, "what the native program prints"
+    here, there = ([float(number) for number in re.findall(_NUMBER, text)] for text in texts)
+    assert here == pytest.approx(there, rel=1e-3, abs=1e-4)  # mirrors amplify how a sine is rounded
+    assert rays.count() == len([line for line in lines if re.match(r".* ray\b.* from ", line)])
+
+    boxes = dialog.locator(".boxes").first
+    boxes.locator("summary").click()
+    box = boxes.locator("li[data-box]").last
+    box.click()
+    expect(dialog.locator("[data-part=box]")).to_have_text(
+        re.compile(rf"Box {box.get_attribute('data-box')} of \d+, .*: entered\.")
+    )
+    dialog.get_by_role("button", name="Show the reflected ray, depth 2").click()
+    expect(dialog.locator("[data-part=ray]")).to_have_text("reflected ray, depth 2")
+    assert_accessible(page)
+    page.emulate_media(color_scheme="dark")
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)
+    page.keyboard.press("Escape")
+    expect(dialog).to_be_hidden()
+    expect(button).to_be_focused()
+
+    save(page, "int broken")
+    _says(page, r"It does not compile\.", timeout=STARTED)
+    expect(button).to_be_disabled()
+
+
+_NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?"
+_SHOW = " Show the shadow ray on the stage"
+_TEXTS = "found => found.map(element => element.textContent)"
+
+
 def test_one_tab_writes_and_the_other_reads(page: "Page", server: PlayServer, solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
@@ -365,9 +453,81 @@ def test_a_saved_zip_is_opened_and_the_next_step_comes(
     _says(page, r"no\.zip cannot be read\. Expected a zip that this page saved, or one that you hand in\.")
 
 
+# The browser's own folder in place of one that a reader would choose; and what another program does there.
+_PICKER = """window.showDirectoryPicker = async () =>
+    (await navigator.storage.getDirectory()).getDirectoryHandle("course", { create: true });"""
+_FILE = """async ([path, text]) => {
+    const names = path.split("/");
+    let folder = await window.showDirectoryPicker();
+    for (const name of names.slice(0, -1)) folder = await folder.getDirectoryHandle(name, { create: true });
+    const file = await folder.getFileHandle(names.at(-1), { create: true });
+    if (text === null) return (await file.getFile()).text();
+    const stream = await file.createWritable();
+    await stream.write(text);
+    return stream.close();
+}"""
+
+
+def test_a_folder_on_disk_and_the_page_follow_each_other(
+    watched: Watched, server: PlayServer, steps: list[Step], solved: dict[str, str]
+) -> None:
+    from playwright.sync_api import expect
+
+    first, second = (f"steps/{step.path.as_posix()}" for step in steps[:2])
+    right = solved[steps[0].id]
+    watched.allowed += [server.address, f"blob:{server.address.rstrip('/')}"]
+    page = watched.open(server.address, before=_PICKER)
+    kept, both, back = (page.locator(f"#play-{name}") for name in ("kept", "both", "back"))
+    _says(page, r"0 of 12 tests pass", timeout=STARTED)
+
+    def on_disk(path: str, text: str | None = None) -> str:
+        return str(page.evaluate(_FILE, [path, text]))
+
+    on_disk(second, "// of the native kit\r\n")
+    save(page, right)
+    _says(page, r"Step 01 is right")
+    page.get_by_role("button", name="Link a folder").click()
+    expect(kept).to_have_text("Saved in course.")
+    assert on_disk(first) == right, "what is in the page only"
+    _says(page, r"Step 01 is right")
+
+    on_disk(first, right.replace("\n", "\r\n") + "// native\r\n")
+    page.evaluate("dispatchEvent(new Event('focus'))")
+    expect(kept).to_have_text("Taken from course, where it was changed.")
+    _says(page, r"Step 01 is right")
+    on_disk(first, "// theirs\n")
+    save(page, f"{right}// mine\n")
+    expect(both).to_be_visible()
+    assert on_disk(first) == "// theirs\n", "as long as nobody has said which one"
+    assert_accessible(page)
+    page.get_by_role("button", name="Keep what is here").click()
+    expect(kept).to_have_text("Saved in course.")
+    assert on_disk(first) == f"{right}// mine\n"
+    expect(back).to_be_visible()  # theirs
+    on_disk(first, "// theirs again\n")
+    write(page, "// mine again\n")
+    page.evaluate("dispatchEvent(new Event('focus'))")
+    page.get_by_role("button", name="Take the file").click()
+    _says(page, r"It does not compile\.")
+    assert _source(page).split() == ["//", "theirs", "again"]
+    back.click()
+    expect(kept).to_have_text("Saved in course.")
+    assert on_disk(first) == "// mine again\n"
+
+    page.reload()
+    unlink = page.get_by_role("button", name="Unlink course")
+    expect(unlink).to_be_visible()
+    page.locator("#play-step").select_option("02")
+    expect(page.locator(".cm-content")).to_have_text("// of the native kit")
+    unlink.click()
+    expect(page.get_by_role("button", name="Link a folder")).to_be_visible()
+
+
 def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     watched.allowed.append(server.address)
-    page = watched.open(server.address, width=390, scheme="dark", touch=True)
+    no_folders = "delete window.showDirectoryPicker;"
+    page = watched.open(server.address, width=390, scheme="dark", touch=True, before=no_folders)
     _says(page, r"0 of 12 tests pass", timeout=STARTED)
+    assert not page.locator("#play-folder").is_visible()
     assert_no_sideways_scrolling(page)
     assert_accessible(page)

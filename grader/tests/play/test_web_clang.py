@@ -142,4 +142,18 @@ def test_its_own_sources_compile_where_steps_are_missing(
     write_release(kit, first_steps(["1-4"], steps), "Graphics 101", folder)
     page = WebKit(Project(folder), clang)
     sources = list((folder / "framework" / "web").glob("*.cpp"))
-    assert [page._made(one).stat().st_size > 0 for one in page._wanted()["web"]] == [True] * len(sources)
+    own = [one for name in ("web", "exceptions") for one in page._wanted()[name]]
+    assert [page._made(one).stat().st_size > 0 for one in own] == [True] * len(sources)
+
+
+def test_it_tells_which_headers_it_has_read(clang: WebClang, project: Project) -> None:
+    """Those of precompiled headers, too."""
+    page = WebKit(project, clang)
+    before = page.used
+    (wanted,) = [one for one in page._wanted()["kit"] if one.source.path == "framework/render/encode.cpp"]
+    page._made(wanted)
+    places = [place.with_suffix(".headers") for place in page.used if place not in before]
+    read = [path.read_text("utf-8").splitlines() for path in places if path.is_file()]
+    (own,) = [names for names in read if wanted.source.path in names]
+    assert {"framework/render/encode.hpp", "framework/core/scene.hpp", "framework/core/ray.hpp"} <= set(own)
+    assert "framework/io/nff_reader.hpp" not in own

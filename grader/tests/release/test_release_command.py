@@ -1,5 +1,6 @@
 """The command `release`, as the documents have it, and what it leaves behind."""
 
+import argparse
 import re
 import sys
 import tomllib
@@ -9,9 +10,11 @@ from pathlib import Path
 
 import pytest
 from doc_commands import all_commands
+from rich.console import Console
 from typed_commands import typed
 
-from raysteps.cli.release import line_to_grade, refuse_inside
+from raysteps.cli.release import add_arguments, line_to_grade, refuse_inside
+from raysteps.cli.release import run as run_release
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
@@ -37,6 +40,30 @@ def test_a_release_among_the_files_of_the_kit_is_refused(tmp_path: Path) -> None
             refuse_inside(project, (tmp_path / name).resolve())
     for name in ("../course", "build/course"):
         refuse_inside(project, (tmp_path / name).resolve())
+
+
+def test_a_page_to_work_in_lies_beside_the_release(project: Project, tmp_path: Path) -> None:
+    """Refused before anything is built."""
+    kit, out = project.root, tmp_path / "course"
+    for place, said in (
+        (out, "expected a folder beside the release, such as ../course-page"),
+        (out / "play", "expected a folder beside the release, such as ../course-page"),
+        (tmp_path, "expected a folder beside the release, such as ../course-page"),
+        (kit / "play", "lies in the kit's own folder"),
+        (kit / "docs", "lies in the kit's own folder"),
+    ):
+        with pytest.raises(UsageError, match=said):
+            _run(project, "--out", str(out), "--play", str(place))
+    (tmp_path / "full" / "a").mkdir(parents=True)
+    with pytest.raises(UsageError, match="expected the name of a new or an empty folder"):
+        _run(project, "--out", str(out), "--play", str(tmp_path / "full"))
+    assert [path.name for path in tmp_path.iterdir()] == ["full"]
+
+
+def _run(project: Project, *words: str) -> int:
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    return run_release(project, parser.parse_args(words), Console(quiet=True))
 
 
 def _release(project: Project, *words: str) -> Outcome:

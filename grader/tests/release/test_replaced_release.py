@@ -10,12 +10,14 @@ import pytest
 
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
+from raysteps.course.project import Project
 from raysteps.release import build_release as making
 from raysteps.release import build_release as replacing
-from raysteps.release.build_release import Leaks, release, usable
+from raysteps.release.build_release import Leaks, PageOptions, release, usable
 from raysteps.release.leaks import leaks_in_history
 from raysteps.release.secrets import gather
 from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.updater.release_list import PLACE
 
 
 def _git(folder: Path, *words: str) -> str:
@@ -56,6 +58,49 @@ def _nothing(new: Path, out: Path) -> bool:
 
 def _released(kit: BuiltKit, steps: list[Step], out: Path, course: str, leaks: Leaks = _nothing) -> bool:
     return release(kit, steps[:1], course, out, leaks, lambda text: None)
+
+
+class _Page:
+    """A page to work in; where it is made, CMake leaves its own folder."""
+
+    def __init__(self, project: Project, registry: str, say: object, cache: Path) -> None:
+        self._project = project
+        assert registry == "https://npm.example.edu"
+        assert cache.parts[-2:] == ("build", "play")
+
+    def make(self) -> Path:
+        assert (self._project.root / PLACE).is_file(), "the release is whole"
+        (self._project.build / "release").mkdir(parents=True)
+        made = self._project.root.parent / "made"
+        made.mkdir()
+        for name, text in (("index.html", "<html >"), ("offline.js", ""), ("a.js", "of the page")):
+            (made / name).write_text(text, "utf-8")
+        return made
+
+
+@pytest.mark.parametrize("leaking", ["", "course", "made"])
+def test_release_and_page_go_out_together_or_not_at_all(
+    leaking: str, older: Path, kit: BuiltKit, steps: list[Step], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(making, "PlayPage", _Page)
+    searched: list[str] = []
+
+    def leaks(new: Path, _out: Path) -> bool:
+        searched.append(new.name)
+        assert not (new / "build").exists()
+        return new.name == leaking
+
+    page = PageOptions(tmp_path / "page", "https://npm.example.edu")
+    before = (older / PLACE).read_bytes()
+    written = release(kit, steps[:1], "Autumn", older, leaks, lambda text: None, page)
+    assert written == (leaking == "")
+    assert searched == ["course", "made"], "all leaks are told at once"
+    assert ((older / PLACE).read_bytes() != before) == written
+    assert (older / "build" / "notes.txt").read_text("utf-8") == "mine"
+    found = {path.name: path.read_text("utf-8") for path in page.out.glob("*")}
+    assert found == (
+        {"index.html": "<html data-published >", "offline.js": "", "a.js": "of the page"} if written else {}
+    )
 
 
 def test_history_and_build_stay(older: Path, kit: BuiltKit, steps: list[Step]) -> None:

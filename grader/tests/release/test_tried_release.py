@@ -102,7 +102,7 @@ def test_one_number_is_said_to_begin_with_the_first_step(
     monkeypatch.setattr(release, "written_files", built)
     for names, words in ((["3"], "steps 1-3: a kit begins with step 01\n"), (["1-3"], ""), (["1"], ""), ([], "")):
         console = Console(width=200, record=True, file=StringIO())
-        arguments = argparse.Namespace(check=None, out=tmp_path / "new", steps=names, course="Course")
+        arguments = argparse.Namespace(check=None, out=tmp_path / "new", steps=names, course="Course", play=None)
         with pytest.raises(KeyboardInterrupt):
             release.run(project, arguments, console)
         assert console.export_text() == words

@@ -13,12 +13,14 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
+from raysteps.common.files import new_or_empty_folder
 from raysteps.common.platform import own_command, quote_command
 from raysteps.common.text import count, join_and, tenths
 from raysteps.course.manifest import Step, choose, course_steps, of_other_parts, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
-from raysteps.release.build_release import due_steps, first_steps, release, usable, written_files
+from raysteps.play.packages import REGISTRY, registry_of
+from raysteps.release.build_release import PageOptions, due_steps, first_steps, release, usable, written_files
 from raysteps.release.leaks import Leak, find_leaks, leaks_in_history, not_searched
 from raysteps.release.secrets import Secrets, gather
 from raysteps.report.terminal import progress
@@ -39,6 +41,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--steps", "--only", nargs="+", default=[], metavar="STEP", help="the first steps only, such as 1-4"
     )
     parser.add_argument("--course", metavar="NAME", help="for the README (that of course.toml, else Raysteps)")
+    parser.add_argument(
+        "--play", type=Path, metavar="DIR", help="write the page to work in, too, into a new or empty folder"
+    )
+    parser.add_argument("--registry", metavar="URL", help=f"where npm packages for it come from, once ({REGISTRY})")
 
 
 def tell(console: Console, leaks: list[Leak]) -> bool:
@@ -119,7 +125,26 @@ def line_to_grade(steps: list[Step], course: list[Step]) -> str:
     return f"{own_command()} {quote_command(['grade-class', 'submissions', '--out', 'grades', *only])}"
 
 
-def write(project: Project, names: list[str], course_name: str | None, target: Path, console: Console) -> list[Step]:
+def _page(project: Project, out: Path, arguments: argparse.Namespace) -> PageOptions | None:
+    """Beside the release: within it, the next one would find a folder that is not its own."""
+    if arguments.play is None:
+        return None
+    place = arguments.play.resolve()
+    refuse_inside(project, place)
+    if place == out or out in place.parents or place in out.parents:
+        raise UsageError(f"--play {arguments.play}: expected a folder beside the release, such as ../{out.name}-page")
+    new_or_empty_folder(place)
+    return PageOptions(place, registry_of(arguments.registry))
+
+
+def write(
+    project: Project,
+    names: list[str],
+    course_name: str | None,
+    target: Path,
+    console: Console,
+    page: PageOptions | None = None,
+) -> list[Step]:
     """The steps of the release that is now there; none where something leaks."""
     named = (read_course(project).title or "Raysteps") if course_name is None else course_name
     course = named.strip()
@@ -140,7 +165,7 @@ def write(project: Project, names: list[str], course_name: str | None, target: P
                 console.print(escape(f"{history}: its history tells this for good; name a new folder with --out"))
             return any(told)
 
-        written = release(build_kit(project, say), steps, course, out, leaks, say)
+        written = release(build_kit(project, say), steps, course, out, leaks, say, page)
     if not written:
         console.print("Nothing was written.")
         return []
@@ -155,9 +180,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if arguments.check is not None:
         return check(gather(project), arguments.check, console)
     out = arguments.out.resolve()
-    steps = write(project, arguments.steps, arguments.course, arguments.out, console)
+    page = _page(project, out, arguments)
+    steps = write(project, arguments.steps, arguments.course, arguments.out, console, page)
     if not steps:
         return 1
+    if page:
+        _say(console, f"The page to work in, with the same steps: {arguments.play}. Put this folder on any web space.")
     worth = tenths(sum(step.points for step in steps if not step.bonus))
     bonus = tenths(sum(step.points for step in steps if step.bonus))
     more = f" and up to {bonus} more as a bonus" if any(step.bonus for step in steps) else ""

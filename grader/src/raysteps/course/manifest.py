@@ -96,6 +96,12 @@ class Step:
         return tuple(image.name for image in self.images if image.max_share is not None)
 
 
+def with_option(args: tuple[str, ...], name: str, value: str) -> tuple[str, ...]:
+    """The arguments of raytrace with that option at their end, in the place of the one that stood there."""
+    at = args.index(name) if name in args else len(args)
+    return (*args[:at], *args[at + 2 :], name, value)
+
+
 _MAX_PART = 9
 
 

@@ -102,7 +102,7 @@ def part_of_a_picture(
 ) -> float:
     """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
     pixels = MOST_OF_A_PICTURE
-    if not pixels_pass and rendered.pixels is not None:
+    if rendered.pixels is not None and (not pixels_pass or gate.max_noise is not None):
         pixels = part_of_its_pixels(kit, step, scene, gate, rendered)
     return round(pixels * _part_spared(rendered.share_tested, max_share), 6)
 
@@ -149,7 +149,7 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
             case,
             case.max_share,
             rendered,
-            pixels_pass=verdict.passed or not verdict.wrong_share,
+            pixels_pass=verdict.passed,
         )
     if rendered.pixels.shape == reference.shape:
         # In a students' kit there is nothing that a picture could carry out.

@@ -159,7 +159,7 @@ class HiddenStepGrader(StepGrader):
                 gate,
                 scene.max_share,
                 rendered,
-                pixels_pass=verdict.passed or not verdict.wrong_share,
+                pixels_pass=verdict.passed,
             )
         return result
 

@@ -11,7 +11,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash, write_bytes, write_json
 from raysteps.common.process import run
 from raysteps.common.text import in_seconds, printable, shorten
-from raysteps.course.manifest import ImageCase, Step, earlier
+from raysteps.course.manifest import ImageCase, Step, earlier, with_option
 from raysteps.course.project import Project
 from raysteps.images.compare import (
     Comparison,
@@ -57,7 +57,7 @@ def write_reference_image(kit: BuiltKit, project: Project, step: Step, case: Ima
     scene = kit.project.root / case.scene
     write_png(shown_reference(kit, scene, case), path)
     if case.max_noise is not None:
-        write_bytes(path.with_suffix(_ESTIMATES), bytes_of(reference_parts(kit, scene, case)))
+        write_bytes(path.with_suffix(ESTIMATES), bytes_of(reference_parts(kit, scene, case)))
     work = reference_work(kit, scene, case.args) if case.max_share is not None else None
     write_json(
         path.with_suffix(".json"),
@@ -120,14 +120,14 @@ def _stored_for_nothing(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> fl
 
 
 def _stored_parts(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Estimates:
-    path = _find(kit, scene, args).path.with_suffix(_ESTIMATES)
+    path = _find(kit, scene, args).path.with_suffix(ESTIMATES)
     try:
         return read_estimates(path.read_bytes())
     except (OSError, EstimatesError) as error:
         raise UsageError(f"{path}: cannot be read; {_AGAIN}") from error
 
 
-_ESTIMATES = ".estimates"
+ESTIMATES = ".estimates"
 _REFERENCE_SECONDS = 600
 _MAX_STATS = 1 << 16  # bytes; raytrace writes some hundred
 _MAX_SHARE = 1e6  # of the scene that a ray is tested against; more than 1 where a surface stands in many boxes
@@ -194,7 +194,7 @@ def _stats_beside(picture: Path) -> Path:
 def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool = False) -> Path:
     """The reference's picture, rendered at the first call; a reference that cannot is the kit's fault."""
     path = _kept(kit, scene, args)
-    beside = [_stats_beside(path), *([path.with_suffix(_ESTIMATES)] if estimates else [])]
+    beside = [_stats_beside(path), *([path.with_suffix(ESTIMATES)] if estimates else [])]
     if path.is_file() and all(file.is_file() for file in beside):
         return path
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -215,15 +215,17 @@ def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool
     return path
 
 
-def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
-    """A students' kit has it ready."""
-    if not kit.has_reference:
-        return stored_reference_image(kit, scene, args)
+def _read_drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool = False) -> Pixels:
     try:
-        return read_ppm(_drawn(kit, scene, args))
+        return read_ppm(_drawn(kit, scene, args, estimates=estimates))
     except PictureError:  # half a file, as after a full disk
         _kept(kit, scene, args).unlink()
-        return read_ppm(_drawn(kit, scene, args))
+        return read_ppm(_drawn(kit, scene, args, estimates=estimates))
+
+
+def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixels:
+    """A students' kit has it ready."""
+    return _read_drawn(kit, scene, args) if kit.has_reference else stored_reference_image(kit, scene, args)
 
 
 @dataclass(frozen=True)
@@ -238,9 +240,10 @@ class Gate:
 
 
 def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Pixels:
-    """The reference's picture: of a noisy one, that with more samples."""
-    noisy = gate.max_noise is not None and kit.has_reference
-    return reference_picture(kit, scene, with_samples(gate.args, gate.more_samples) if noisy else gate.args)
+    """The reference's picture: of a noisy one, that with more samples, drawn once with the estimates beside it."""
+    if gate.max_noise is None or not kit.has_reference:
+        return reference_picture(kit, scene, gate.args)
+    return _read_drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
 
 
 def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estimates:
@@ -248,7 +251,7 @@ def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estim
     if not kit.has_reference:
         return _stored_parts(kit, scene, gate.args)
     path = _drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
-    return read_estimates(path.with_suffix(_ESTIMATES).read_bytes()).in_parts()
+    return read_estimates(path.with_suffix(ESTIMATES).read_bytes()).in_parts()
 
 
 def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> Comparison:
@@ -272,8 +275,7 @@ def part_of_its_pixels(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase |
 
 def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
     """The arguments of the same picture with what another step can do."""
-    at = args.index("--step") if "--step" in args else len(args)
-    return (*args[:at], *args[at + 2 :], "--step", str(step))
+    return with_option(args, "--step", str(step))
 
 
 _FIRST_WITH_LIGHT = 3  # the pictures of the steps before show something else

@@ -1,11 +1,11 @@
 """A pixel as a page: its rays and boxes in three dimensions, and the tree of rays in words."""
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 
+from raysteps.common.documents import plain
 from raysteps.common.files import write_out
 from raysteps.common.text import count
 from raysteps.inspector.model import BoxEvent, Hit, LightShare, Ray, Record, Way
@@ -15,14 +15,11 @@ from raysteps.inspector.records import (
     Vector,
     as_float,
     brief,
-    is_finite,
-    length,
     meets,
-    minus,
     point,
     surface_name,
 )
-from raysteps.report.page import PictureData, render_page
+from raysteps.report.page import SPACE_SCRIPTS, PictureData, render_page
 
 # A record as the lines of a tree, each with a key, so that two trees can stand side by side.
 
@@ -124,7 +121,7 @@ def lines_of(record: Record) -> list[Line]:
     return [*lines, Line(("bytes",), 0, ending)]
 
 
-# A record as a tree of rays for a page: words to read, and where each ray runs in space.
+# A record as a tree of rays for a page, in words; where each ray runs in space: inspect-record.js.
 
 
 @dataclass
@@ -239,97 +236,7 @@ def page_ray(ray: Ray, surfaces: int, key: Key = ("eye",)) -> PageRay:
     return made
 
 
-# What a page draws of a record in space.
-
-_FAR = 3.0  # sizes of the view that a ray which meets nothing is drawn long
-
-
-def _plain(vector: Vector) -> list[float]:
-    """JSON has no infinity."""
-    return [value if math.isfinite(value) else 0.0 for value in map(as_float, vector)]
-
-
-def _along(origin: Vector, direction: Vector, distance: float) -> list[float]:
-    return _plain([a + distance * b for a, b in zip(_plain(origin), _plain(direction), strict=True)])
-
-
-def _end(ray: Ray, size: float) -> list[float]:
-    if ray.hit is not None and is_finite(ray.hit.position):
-        return _plain(ray.hit.position)
-    limit = _FAR * size if ray.limit is None else min(as_float(ray.limit), 10 * _FAR * size)
-    return _along(ray.origin, ray.direction, limit)
-
-
-def _ray_in_space(page_ray: PageRay, size: float) -> dict[str, object]:
-    ray = page_ray.record
-    return {
-        "id": page_ray.id,
-        "role": page_ray.role,
-        "origin": _plain(ray.origin),
-        "end": _end(ray, size),
-        "hit": None if ray.hit is None else ray.hit.surface,
-        "boxes": [
-            {"min": _plain(b.min), "max": _plain(b.max), "entered": b.enter is not None, "level": b.level}
-            for b in ray.boxes
-        ],
-        "tests": [
-            {"surface": test.surface, "hit": test.distance is not None, "before": test.boxes_before}
-            for test in ray.tests
-        ],
-    }
-
-
-def _camera(record: Record) -> dict[str, object]:
-    camera, frame = record.camera, record.frame
-    half_width, half_height = as_float(frame.half_width), as_float(frame.half_height)
-    axes = [_plain(axis) for axis in (frame.forward, frame.right, frame.up)]
-
-    def corner(right: int, up: int) -> list[float]:
-        return _plain([f + right * half_width * r + up * half_height * u for f, r, u in zip(*axes, strict=True)])
-
-    return {
-        "from": _plain(camera["from"]),
-        "at": _plain(camera["at"]),
-        "up": _plain(camera["up"]),
-        "halfHeight": math.tan(math.radians(as_float(camera["angle"])) / 2),
-        "aspect": camera["width"] / camera["height"],
-        "corners": [corner(-1, 1), corner(1, 1), corner(1, -1), corner(-1, -1)],
-    }
-
-
-def _goal(record: Record) -> list[float]:
-    """What the pixel shows; a sky far behind the scene is no good place to look at."""
-    camera, hit = record.camera, record.ray.hit
-    if hit is not None and is_finite(hit.position):
-        far = _FAR * length(minus(camera["at"], camera["from"]))
-        if length(minus(hit.position, camera["from"])) <= far:
-            return _plain(hit.position)
-    return _plain(camera["at"])
-
-
-def space_of(record: Record, tree: PageRay) -> dict[str, object]:
-    """Camera, lights, surfaces near the rays, and the rays; `size` is how far the eye is from the goal."""
-    goal = _goal(record)
-    size = max(length(minus(goal, record.camera["from"])), 1e-3)
-    return {
-        "camera": _camera(record),
-        "goal": goal,
-        "size": size,
-        "lights": [_plain(light.position) for light in record.lights],
-        "surfaces": [
-            {
-                "surface": near.surface,
-                "points": [_plain(corner) for corner in near.points],
-                "radii": _plain(near.radii),
-                "color": _plain(near.color),
-            }
-            for near in record.near
-        ],
-        "rays": [_ray_in_space(ray, size) for ray in tree.all_rays()],
-    }
-
-
-_SCRIPTS = ("space-vectors", "space-shapes", "space-painter", "space-orbit", "inspect-space", "inspect")
+# The page.
 
 
 def _parts_at(tree: PageRay, divergence: Difference | None) -> str:
@@ -361,9 +268,9 @@ def page_html(
         "parts_at": {name: _parts_at(tree, divergence) for name, tree in trees.items()},
         "swatch": shown_color([byte / 255 for byte in record.bytes] if record.bytes else None),
     }
-    spaces = {name: space_of(one, trees[name]) for name, one in records.items()}
+    data = {name: plain(one) for name, one in records.items()}
     title = f"Inside pixel ({pixel.x}, {pixel.y})"
-    return render_page("inspect", title, context, scripts=_SCRIPTS, styles=("inspect",), data=spaces)
+    return render_page("inspect", title, context, scripts=SPACE_SCRIPTS, styles=("inspect",), data=data)
 
 
 def write_page(

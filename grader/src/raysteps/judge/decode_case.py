@@ -119,7 +119,8 @@ def _scatter(n: _Numbers) -> Scatter:
 
 
 def _path_hit(n: _Numbers) -> PathHit:
-    return PathHit(n.real(), n.vector(), n.vector(), n.vector(), _scatter(n) if n.flag() else None)
+    distance, normal, emission, front_face = n.real(), n.vector(), n.vector(), n.flag()
+    return PathHit(distance, normal, emission, n.vector(), _scatter(n) if n.flag() else None, front_face)
 
 
 _READERS: dict[type, Callable[[_Numbers], Any]] = {

@@ -44,14 +44,14 @@ class Estimates:
     @property
     def error(self) -> Numbers:
         """Standard error of the mean, of each channel."""
-        return np.asarray(self.batches.std(axis=0, ddof=1) / math.sqrt(len(self.batches)))
+        with np.errstate(invalid="ignore", over="ignore"):  # light may be infinite
+            return np.asarray(self.batches.std(axis=0, ddof=1) / math.sqrt(len(self.batches)))
 
-    @property
-    def work(self) -> float:
-        """What an error of the size of the mean costs, of the worst channel: variance times cost. The number of
-        estimates does not matter to it."""
-        largest = float(np.abs(self.mean).max())
-        return float((self.error**2).max()) * self.cost / largest**2 if largest else 0.0
+    def work(self, mean: Vector) -> float:
+        """What an error of the size of the right mean costs, of the worst channel: variance times cost. The number of
+        estimates does not matter to it; an estimate that asks nothing counts as one question."""
+        largest = max(map(abs, mean))
+        return float((self.error**2).max()) * max(self.cost, self.count) / largest**2 if largest else 0.0
 
 
 def plan(draw: RandomSource, bias: float, most: int = _MOST) -> Inputs:
@@ -114,7 +114,7 @@ def estimates_problem(
     for channel in range(3):
         if not has_right_mean(actual.batches[:, channel], mean[channel]):
             return f"{what} is wrong on average, {_side(float(actual.mean[channel]), mean[channel])}"
-    if actual.work > most_work * expected.work + _NO_NOISE:
+    if actual.work(mean) > most_work * expected.work(mean) + _NO_NOISE:
         return f"{what} is right on average, but noisier than it need be"
     return ""
 

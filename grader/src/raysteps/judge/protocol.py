@@ -109,6 +109,27 @@ class Vec:
         return vector_words(self.value)
 
 
+def real_of(inputs: Inputs, name: str) -> float:
+    """A single number of a case."""
+    value = inputs[name]
+    assert isinstance(value, Real)
+    return value.value
+
+
+def whole_of(inputs: Inputs, name: str) -> int:
+    """A whole number of a case."""
+    value = inputs[name]
+    assert isinstance(value, Whole)
+    return value.value
+
+
+def vec_of(inputs: Inputs, name: str) -> Vector:
+    """A point, a direction or a colour of a case."""
+    value = inputs[name]
+    assert isinstance(value, Vec)
+    return value.value
+
+
 @dataclass(frozen=True)
 class Ray:
     origin: Vector

@@ -93,14 +93,16 @@ class PathHit:
     emission: Vector
     light: Vector  # what light_sample gives
     scatter: Scatter | None
+    front_face: bool = True
 
     def numbers(self) -> list[Number]:
         scatter = [0] if self.scatter is None else [1, *self.scatter.numbers()]
-        return [self.distance, *self.normal, *self.emission, *self.light, *scatter]
+        return [self.distance, *self.normal, *self.emission, int(self.front_face), *self.light, *scatter]
 
     def words(self) -> str:
+        side = "" if self.front_face else ", met from behind"
         return (
-            f"a hit at {text(self.distance)} with normal {vector_words(self.normal)}, emission "
+            f"a hit at {text(self.distance)} with normal {vector_words(self.normal)}{side}, emission "
             f"{vector_words(self.emission)}, light_sample {vector_words(self.light)}, "
             f"{'no scatter' if self.scatter is None else self.scatter.words()}"
         )

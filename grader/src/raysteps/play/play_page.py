@@ -8,9 +8,12 @@ import re
 import shutil
 import tarfile
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import new_or_empty_folder, one_at_a_time, write_bytes
@@ -22,11 +25,13 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import missing_message, twice_message, undefined_message
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
-from raysteps.images.render import ENDLESS, reference_image_path
+from raysteps.images.noise import read_estimates, with_samples
+from raysteps.images.render import ENDLESS, ESTIMATES, reference_image_path
 from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
-from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, render_page
+from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
+from raysteps.report.wording import inspect_options
 
 Say = Callable[[str], None]
 
@@ -60,8 +65,20 @@ def _editor(cache: Path, registry: str, say: Say) -> Iterator[tuple[str, bytes]]
 # Handouts.
 
 
-def handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]) -> str:
-    """HTML. `number_of` maps the folders of steps to their numbers; `shown` gives the place of a picture."""
+_SOURCE = re.compile(r"<code>([\w./-]+\.(?:hpp|cpp|nff))</code>")
+_TYPED = '<pre tabindex="0"><code>./raysteps '
+_NOT_TYPED = (
+    '<p class="play-note">Lines that begin with <code>./raysteps</code> are typed where the kit is installed. On this '
+    "page <em>Run</em> checks and draws as <code>check</code> and <code>render</code> do, <em>Look inside pixel</em> "
+    "is <code>inspect</code>, and <em>Hint</em> is <code>hint</code>.</p>\n"
+)
+
+
+def handout(
+    text: str, number_of: Mapping[str, str], shown: Callable[[str], str], source: Callable[[str], str | None]
+) -> str:
+    """HTML. `number_of` maps the folders of steps to their numbers; `shown` gives the place of a picture, `source` that
+    of a file by the name that the text has for it."""
     from markdown_it import MarkdownIt
 
     def target(link: str) -> str:
@@ -83,6 +100,13 @@ def handout(text: str, number_of: Mapping[str, str], shown: Callable[[str], str]
     plain = with_formulas(unlinked(with_targets(text, target), is_known), marked)
     html: str = MarkdownIt("commonmark", {"html": True}).enable("table").render(plain)
     html = re.sub(r"<(pre|table)>", r'<\1 tabindex="0">', html)  # which a keyboard can scroll then
+    html = html.replace(_TYPED, _NOT_TYPED + _TYPED, 1)
+
+    def linked(found: re.Match[str]) -> str:
+        place = source(found[1])
+        return found[0] if place is None else f'<a href="{place}" class="play-text">{found[0]}</a>'
+
+    html = _SOURCE.sub(linked, html)
     return re.sub("\ue000([0-9]+)\ue001", lambda found: made[int(found[1])], html)
 
 
@@ -138,6 +162,7 @@ def _system(clang: WebClang, kit: WebKit, project: Project) -> dict[str, bytes]:
     return found | {f"kit/{path.relative_to(project.root).as_posix()}": path.read_bytes() for path in own}
 
 
+_NAME = re.compile(r"\b[A-Za-z_]\w{2,}\b")
 _FIRST = re.compile(r"(?:[ \t]*(?:#[ \t]*include[^\n]*|//[^\n]*)?\r?\n)*")
 
 
@@ -152,11 +177,13 @@ def first_includes(source: str) -> str:
 class PlayPage:
     """Puts the page together in a folder."""
 
-    def __init__(self, project: Project, registry: str, say: Say = lambda text: None) -> None:
+    def __init__(
+        self, project: Project, registry: str, say: Say = lambda text: None, cache: Path | None = None
+    ) -> None:
         self._project = project
         self._registry = registry
         self._say = say
-        self._cache = project.build / "play"
+        self._cache = cache or project.build / "play"
         self._packages = self._cache / "packages"
         self._clang = WebClang(fetch(CLANG, self._packages, registry, say), self._cache, say)
         self._kit = WebKit(project, self._clang, say)
@@ -214,8 +241,8 @@ class PlayPage:
             "play",
             "Raysteps",
             {},
-            scripts=(*COMPARE_SCRIPTS, "watch-parts"),
-            styles=(*COMPARE_STYLES, "watch", "play", "figures"),
+            scripts=(*COMPARE_SCRIPTS, "watch-parts", *SPACE_SCRIPTS),
+            styles=(*COMPARE_STYLES, "watch", "inspect", "play", "figures"),
             data=content,
             module="play.js",
         )
@@ -238,18 +265,32 @@ class PlayPage:
             return path
         return self._add(f"figures/{found.name}", found.read_bytes())
 
+    def _source(self, step: Step, name: str) -> str | None:
+        """The place of a file to read, under a name that every web space takes for text; none of what is not there, and
+        of the file that the student writes."""
+        root = self._project.root
+        folders = (self._project.steps / step.id, root, root / "framework", self._project.scenes / "lessons")
+        paths = [folder / name for folder in folders if (folder / name).is_file()]
+        if not paths or paths[0] == self._project.steps / step.path:
+            return None
+        return self._add(f"texts/{paths[0].relative_to(root).as_posix()}.txt", paths[0].read_bytes())
+
     def _described(self, step: Step, steps: list[Step]) -> dict[str, Any]:
         text = (self._project.steps / step.id / "README.md").read_text("utf-8")
         numbers = {other.id: other.number for other in steps}
-        self._add(f"steps/{step.number}.html", handout(text, numbers, self._figure).encode())
-        headers = [path.read_text("utf-8") for path in sorted((self._project.steps / step.id).glob("*.hpp"))]
+        self._add(
+            f"steps/{step.number}.html", handout(text, numbers, self._figure, partial(self._source, step)).encode()
+        )
+        folder = self._project.steps / step.id
+        headers, tests = sorted(folder.glob("*.hpp")), sorted(folder.glob("*_test.cpp"))
         return {
             "number": step.number,
             "id": step.id,
             "title": step.title,
             "path": f"steps/{step.path.as_posix()}",
             "stub": pristine_stub(self._project, step),
-            "names": sorted(set(re.findall(r"\b[A-Za-z_]\w{2,}\b", "\n".join(headers)))),
+            "texts": {path.name: self._source(step, path.name) for path in (*headers, *tests)},
+            "names": sorted({name for path in headers for name in _NAME.findall(path.read_text("utf-8"))}),
             "hints": list(step.hints),
             "seconds": step.seconds,
             "tests": [{"name": name, "functions": list(of)} for name, of in self._kit.tests(step).items()],
@@ -262,7 +303,8 @@ class PlayPage:
         scene = self._project.root / case.scene
         name = f"pictures/{step.number}/{case.name}.png"
         if self._project.has_reference:
-            made = self._kit.picture(scene, args)
+            noisy = case.max_noise is not None
+            made = self._kit.picture(scene, with_samples(tuple(args), case.more_samples) if noisy else args)
             picture = made.with_suffix(".png")
             if not picture.is_file():
                 write_png(parse_ppm(made.read_bytes()), picture)
@@ -274,12 +316,28 @@ class PlayPage:
             "name": case.name,
             "scene": self._add(f"scenes/{scene.name}", scene.read_bytes()),
             "args": list(args),
+            "inspect": inspect_options(args),
             "reference": name,
             "width": width,
             "height": height,
             "maxWrong": case.max_wrong,
+            "noise": self._noise(step, case, scene, (width, height)),
             "maxShare": case.max_share,
         }
+
+    def _noise(self, step: Step, case: ImageCase, scene: Path, size: tuple[int, int]) -> dict[str, Any] | None:
+        """What noise.js compares a noisy picture with."""
+        if case.max_noise is None:
+            return None
+        if self._project.has_reference:
+            args = with_samples(case.args, case.more_samples)
+            parts = read_estimates(self._kit.estimates(scene, args).read_bytes()).in_parts()
+        else:
+            parts = read_estimates(reference_image_path(self._project, step, case).with_suffix(ESTIMATES).read_bytes())
+        rows = np.concatenate([parts.mean, parts.variance], axis=2).reshape(-1, 6)
+        width, height = size
+        numbers = [[float(f"{number:.7g}") for number in row] for row in rows]
+        return {"width": width, "height": height, "most": case.max_noise, "factor": case.more_samples, "parts": numbers}
 
 
 # Published, on any web space.
@@ -317,6 +375,7 @@ _KINDS = {
     ".png": "image/png",
     ".svg": "image/svg+xml",
     ".nff": "text/plain; charset=utf-8",
+    ".txt": "text/plain; charset=utf-8",
     ".gz": "application/octet-stream",
 }
 # A worker has the policy that its script came with, not its page's. Only the one that compiles asks for more files.

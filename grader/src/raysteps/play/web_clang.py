@@ -45,7 +45,7 @@ class WebClang:
     def __init__(self, package: Path, cache: Path, say: Callable[[str], None] = lambda text: None) -> None:
         self.wasm = package / "gen" / "llvm.core.wasm"
         self._package = package
-        self._cache = cache
+        self.cache = cache
         self._say = say
         self._ready: dict[Path, Any] = {}
 
@@ -56,12 +56,12 @@ class WebClang:
 
     @property
     def _for_this_machine(self) -> Path:
-        return self._cache / f"{self._package.name}-wasmtime-{version('wasmtime')}"
+        return self.cache / f"{self._package.name}-wasmtime-{version('wasmtime')}"
 
     @cached_property
     def system(self) -> Path:
         """Headers and libraries, which programs know as /usr."""
-        folder = self._cache / f"{self._package.name}-system"
+        folder = self.cache / f"{self._package.name}-system"
         if not folder.is_dir():
             with new_folder(folder) as new, tarfile.open(self._package / "gen" / "llvm-resources.tar") as archive:
                 archive.extractall(new / folder.name, filter="data")

@@ -4,6 +4,7 @@ import hashlib
 import itertools
 import json
 import os
+import posixpath
 import re
 import shlex
 import tempfile
@@ -26,12 +27,14 @@ from raysteps.toolchain.cmake import release_tree
 
 # Folders by the names that the compiler knows them by, here and in the page.
 _KIT, _LIBRARIES, _PARTS, _WORK = "/kit", "/libraries", "/parts", "/work"
-_INCLUDES = ("-I", f"{_KIT}/framework", "-I", _KIT, "-isystem", _LIBRARIES)
+_OWN_FOLDERS = ("framework", ".", "framework/absent")  # the last has the headers of steps that a students' kit lacks
+_INCLUDES = (*(f"-I{posixpath.normpath(f'{_KIT}/{name}')}" for name in _OWN_FOLDERS), "-isystem", _LIBRARIES)
 _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wno-unused-parameter")
 _QUIET = "-w"  # the native build warns about what it compiles, too
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
 _TESTING = (_QUIET, "-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
 _MAIN = "-Dmain="
+_EXCEPTIONS = "framework/web/exceptions.cpp"  # which all programs need
 _TEST_MAIN, _RAYTRACE = f"{_MAIN}test_main", (_QUIET, f"{_MAIN}raytrace_main")
 # Libraries that are headers only: the folder or file of each, and where packages put it.
 _HEADERS = {
@@ -100,9 +103,7 @@ class Sources:
         defined = [
             f"-D{word[2:]}" for word in words if re.match(r"[-/]D\w", word) and not word[2:].startswith("NDEBUG")
         ]
-        inside = [Path(folder).resolve() for folder in _folders(words)]
-        own = [folder for folder in inside if folder.is_relative_to(self._root / "framework")]
-        return (*defined, *(f"-I{_KIT}/{self._inside(folder)}" for folder in own))
+        return tuple(defined)
 
     def folders_of_others(self) -> list[Path]:
         """Where libraries' headers were found."""
@@ -110,6 +111,26 @@ class Sources:
         outside = [Path(folder) for folder in found if not Path(folder).resolve().is_relative_to(self._root)]
         fetched = [self._root / "build" / "release" / "_deps" / name for name in ("glm-src", "catch2-src", "stb-src")]
         return [*outside, *fetched, *map(Path, _USUAL_FOLDERS)]
+
+
+_ASKED = re.compile(r"""include\s*\(?\s*[<"]([^">]+)[">]""")  # by #include and by __has_include
+
+
+def looked_for(root: Path, made_of: str) -> list[str]:
+    """Files of the kit, from its root, on which a result depends: those that the compiler has read, as it writes them
+    for Make, and all names below which it may have looked for what these include, found or not."""
+    paths = made_of.partition(":")[2].replace("\\\n", " ").split()
+    read = [posixpath.relpath(path, _KIT) for path in paths if path.startswith(f"{_KIT}/")]
+    names = set(read)
+    for name in read:
+        folders = (posixpath.dirname(name), *_OWN_FOLDERS)
+        asked = _ASKED.findall((root / name).read_text("utf-8"))
+        names.update(posixpath.normpath(f"{folder}/{one}") for folder in folders for one in asked)
+    return sorted(names)
+
+
+def _digest(*words: str) -> str:
+    return hashlib.sha256("\0".join(words).encode()).hexdigest()
 
 
 def headers_path(step: Step) -> str:
@@ -135,8 +156,9 @@ class WebKit:
         self._sources = Sources(project)
         self.steps = read_all_steps(project)
         self.model = "reference" if project.has_reference else "stub"
-        self._cache = project.build / "play"
+        self._cache = clang.cache
         self._used: set[Path] = set()
+        self._header_marks: dict[str, str] = {}
         self._turn = threading.Lock()  # to compile headers, which several sources wait for
 
     @property
@@ -176,29 +198,21 @@ class WebKit:
         return {_KIT: self._project.root, _LIBRARIES: self.libraries, _PARTS: objects, "/usr": self._clang.system}
 
     @cached_property
-    def _headers_mark(self) -> bytes:
-        """Changes with every header but those that only the page's own sources include."""
-        digest = hashlib.sha256(f"{self._clang.wasm.parent.parent.name}\0{self.libraries.name}\0".encode())
-        own = [path for name in ("framework", "steps") for path in (self._project.root / name).rglob("*.hpp")]
-        for path in sorted(own):
-            if path.parent.name != "web":
-                digest.update(f"{self._name(path)}\0".encode() + path.read_bytes())
-        return digest.digest()
+    def _common_mark(self) -> str:
+        """Of what every source may read: the compiler's files and libraries."""
+        return _digest(self._clang.wasm.parent.parent.name, self.libraries.name)
 
     def _name(self, path: Path) -> str:
         return path.relative_to(self._project.root).as_posix()
 
-    def _mark(self, source: Path, command: Sequence[str]) -> str:
-        digest = hashlib.sha256(self._headers_mark)
-        for path in sorted(source.parent.glob("*.hpp")):
-            digest.update(f"{path.name}\0".encode() + path.read_bytes())
-        digest.update("\0".join(command).encode() + source.read_bytes())
-        return digest.hexdigest()
+    def _header_mark(self, name: str) -> str:
+        if name not in self._header_marks:
+            path = self._project.root / name
+            self._header_marks[name] = _digest(path.read_text("utf-8")) if path.is_file() else "none"
+        return self._header_marks[name]
 
-    def _object(self, mark: str, ending: str) -> Path:
-        place = self._cache / "objects" / mark[:24]
-        self._used.add(place)
-        return place.with_suffix(f".{ending}")
+    def _place(self, mark: str, ending: str) -> Path:
+        return self._cache / "objects" / f"{mark[:24]}.{ending}"
 
     @cached_property
     def _commands(self) -> dict[tuple[str, bool], list[str]]:
@@ -213,43 +227,59 @@ class WebKit:
         words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags]
         if wanted.headers:
             words += ["-include-pch", f"{_PARTS}/{self._precompiled(wanted).name}"]
-        target = self._object(self._mark(self._project.root / source.path, words), "o")
-        if not target.is_file():
-            self._compile(words, f"{_KIT}/{source.path}", target)
-        return target
+        text = (self._project.root / source.path).read_text("utf-8")
+        return self._compiled("o", words, f"{_KIT}/{source.path}", text)
 
     def _precompiled(self, wanted: Wanted) -> Path:
         """The headers of a source, as the compiler keeps them in memory. Their text has to stay beside that."""
         flags = [flag for flag in wanted.flags if not flag.startswith(_MAIN)]
         words = [*self._commands[wanted.level, True], *_INCLUDES, *flags, *_PORTABLE]
         text = self._kept("hpp", wanted.headers)
-        target = self._kept("pch", self._headers_mark.hex(), text.name, *words)
         with self._turn:
-            if not target.is_file():
+            if not text.is_file():
                 write_bytes(text, wanted.headers.encode())
-                self._compile(words, f"{_PARTS}/{text.name}", target)
+            return self._compiled("pch", words, f"{_PARTS}/{text.name}", wanted.headers)
+
+    def _compiled(self, ending: str, words: Sequence[str], path: str, text: str) -> Path:
+        """What the compiler makes of a source with this text: anew when the text has changed, or a header that it read
+        the last time, or where one is now that would have been found before."""
+        listed = self._kept("headers", self._common_mark, path, text, *words)
+        target = self._by_headers(listed, ending) if listed.is_file() else None
+        if target is None or not target.is_file():
+            with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+                if path.startswith(f"{_WORK}/"):
+                    (Path(folder) / Path(path).name).write_text(text, encoding="utf-8", newline="\n")
+                named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
+                more = ["-dependency-file", f"{_WORK}/read", "-MT", "made"]
+                command = [*(named.get(word, word) for word in words), *more]
+                self._clang.make(command, {**self._places, _WORK: Path(folder)})
+                names = looked_for(self._project.root, (Path(folder) / "read").read_text("utf-8"))
+                write_bytes(listed, "".join(f"{name}\n" for name in names).encode())
+                target = self._by_headers(listed, ending)
+                write_bytes(target, (Path(folder) / "made").read_bytes())
+        self._used.add(target.with_suffix(""))
         return target
 
-    def _compile(self, words: Sequence[str], path: str, target: Path, more: Mapping[str, str] | None = None) -> None:
-        """`more` are texts that lie beside what is made, by their names."""
-        with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-            for name, text in (more or {}).items():
-                (Path(folder) / name).write_text(text, encoding="utf-8", newline="\n")
-            named = {INPUT: path, OUTPUT: f"{_WORK}/made"}
-            self._clang.make([named.get(word, word) for word in words], {**self._places, _WORK: Path(folder)})
-            write_bytes(target, (Path(folder) / "made").read_bytes())
+    def _by_headers(self, listed: Path, ending: str) -> Path:
+        """Where what was made with these headers lies."""
+        marks = [f"{name} {self._header_mark(name)}" for name in listed.read_text("utf-8").splitlines()]
+        return self._place(_digest(listed.stem, *marks), ending)
 
     def _wanted(self) -> dict[str, list[Wanted]]:
         """What is to be made, by the name of the part that it belongs to."""
         of = self._sources.of
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
-        web = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
-        words = of("raysteps-render")[0].words  # where headers of steps are that a students' kit lacks
+        paths = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
+        web = [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in paths]
+        raytrace = of("raytrace-app")
+        inspect = [*of("inspect-app"), *of("raysteps-inspect-recorded"), *of("raysteps-inspect")]
         parts = {
-            "web": [Wanted(Source(self._name(path), words), flags=(*_WARNINGS, "-Werror")) for path in web],
+            "web": [one for one in web if one.source.path != _EXCEPTIONS],
+            "exceptions": [one for one in web if one.source.path == _EXCEPTIONS],
+            "inspect": [Wanted(source, headers=_KIT_HEADERS) for source in inspect if source not in raytrace],
             "kit": [
                 *(Wanted(source, headers=_KIT_HEADERS) for source in libraries),
-                *(Wanted(source, flags=_RAYTRACE, headers=_KIT_HEADERS) for source in of("raytrace-app")),
+                *(Wanted(source, flags=_RAYTRACE, headers=_KIT_HEADERS) for source in raytrace),
                 *(Wanted(source, "-O1", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
             ],
         }
@@ -263,10 +293,10 @@ class WebKit:
 
     @cached_property
     def _objects(self) -> dict[str, list[Path]]:
-        """`kit`, `web`, `test-NN` and `step-NN`."""
+        """`kit`, `web`, `exceptions`, `inspect`, `test-NN` and `step-NN`."""
         parts = self._wanted()
         total, done = sum(map(len, parts.values())), 0
-        _ = self._commands, self._places, self._headers_mark  # before several ask for them at once
+        _ = self._commands, self._places, self._common_mark  # before several ask for them at once
         with ThreadPoolExecutor(min(_MOST_AT_ONCE, os.cpu_count() or 1)) as pool:
             waiting = {name: [pool.submit(self._made, one) for one in some] for name, some in parts.items()}
             made: dict[str, list[Path]] = {}
@@ -291,7 +321,9 @@ class WebKit:
         return target
 
     def _kept(self, ending: str, *marks: str) -> Path:
-        return self._object(hashlib.sha256(" ".join(marks).encode()).hexdigest(), ending)
+        place = self._place(_digest(*marks), ending)
+        self._used.add(place.with_suffix(""))
+        return place
 
     def parts(self) -> Parts:
         """All objects, by the paths that the linker in the page knows them by."""
@@ -309,11 +341,7 @@ class WebKit:
     def headers(self, step: Step, includes: str) -> Path:
         """What the first lines of a source include, as the compiler keeps it in memory. No more than these: a header
         that is missing is missed in the page as everywhere."""
-        words, path = self.headers_command(), headers_path(step)
-        target = self._kept("pch", self._headers_mark.hex(), step.number, includes, *words)
-        if not target.is_file():
-            self._compile(words, path, target, {Path(path).name: includes})
-        return target
+        return self._compiled("pch", self.headers_command(), headers_path(step), includes)
 
     def headers_command(self) -> list[str]:
         """How these are compiled; the page does it, too, when a student includes something else."""
@@ -321,7 +349,7 @@ class WebKit:
 
     def _program(self, step: Step) -> Path:
         """With the visible tests of the step; every step is the model's."""
-        names = ["web", *(f"step-{other.number}" for other in self.steps), f"test-{step.number}"]
+        names = ["web", "exceptions", *(f"step-{other.number}" for other in self.steps), f"test-{step.number}"]
         inputs = [*(path for name in names for path in self._objects[name]), self._archive]
         target = self._kept("wasm", *(path.name for path in inputs))
         if not target.is_file():
@@ -334,15 +362,15 @@ class WebKit:
                 write_bytes(target, (Path(folder) / "made").read_bytes())
         return target
 
-    def _ran(self, step: Step, words: Sequence[str], made: str, scene: Path | None = None) -> Path:
-        """The file that the reference's program makes."""
+    def _ran(self, step: Step, words: Sequence[str], made: str, scene: Path | None = None, option: str = "-o") -> Path:
+        """The file that the reference's program makes, by that option."""
         program = self._program(step)
         content = "" if scene is None else scene.read_text("utf-8")
         target = self._kept(made, program.name, *words, content)
         if not target.is_file():
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
                 (Path(folder) / "scene.nff").write_text(content, encoding="utf-8")
-                said = self._clang.program(program, [*words, "-o", f"{_WORK}/{made}"], {_WORK: Path(folder)})
+                said = self._clang.program(program, [*words, option, f"{_WORK}/{made}"], {_WORK: Path(folder)})
                 if said.code != 0:
                     raise GraderFault(f"the reference fails in the page's program: {said.stderr.strip()}")
                 write_bytes(target, (Path(folder) / made).read_bytes())
@@ -361,3 +389,8 @@ class WebKit:
         """The reference's, as raytrace writes it."""
         words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet"]
         return self._ran(self.steps[0], words, "ppm", scene)
+
+    def estimates(self, scene: Path, args: Sequence[str]) -> Path:
+        """Of the same picture, with `--estimates`."""
+        words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet", "-o", f"{_WORK}/picture.ppm"]
+        return self._ran(self.steps[0], words, "estimates", scene, "--estimates")

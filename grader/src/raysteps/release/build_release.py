@@ -4,6 +4,7 @@ import glob
 import shutil
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from raysteps.course.manifest import (
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.images.render import write_reference_image
+from raysteps.play.play_page import PlayPage, publish
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
 from raysteps.toolchain.build_kit import write_given_tests
@@ -179,8 +181,31 @@ def write_release(
     write_bytes(folder / PLACE, encoded(_list(folder, course, kit, steps)))
 
 
-def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Leaks, say: ProgressCallback) -> bool:
-    """Whether it was written; not where `leaks` finds something in it."""
+@dataclass(frozen=True)
+class PageOptions:
+    """Where the page to work in goes, and where npm packages come from."""
+
+    out: Path
+    registry: str
+
+
+def _students_page(kit: BuiltKit, folder: Path, registry: str, say: ProgressCallback) -> Path:
+    """Made of the release, in the cache of the whole kit; nothing of it stays in the release."""
+    made = PlayPage(Project(folder), registry, say, kit.project.build / "play").make()
+    shutil.rmtree(folder / "build")
+    return made
+
+
+def release(
+    kit: BuiltKit,
+    steps: list[Step],
+    course: str,
+    out: Path,
+    leaks: Leaks,
+    say: ProgressCallback,
+    page: PageOptions | None = None,
+) -> bool:
+    """Whether it was written; not where `leaks` finds something in it, or in the page to work in."""
     refuse_left_overs(out)
     usable(out)
     try:
@@ -190,11 +215,14 @@ def release(kit: BuiltKit, steps: list[Step], course: str, out: Path, leaks: Lea
             new.mkdir(mode=0o755)
             say("writing the files")
             write_release(kit, steps, course, new, say)
+            made = _students_page(kit, new, page.registry, say) if page else None
             say("looking for leaks")
-            if leaks(new, out):
+            if any([leaks(new, out), made is not None and leaks(made, made)]):
                 return False
             usable(out)
             swap(new, out)
+            if page and made:
+                publish(made, page.out)
     except OSError as error:
         raise UsageError(f"{out}: cannot be written: {reason(error)}") from error
     return True

@@ -191,6 +191,16 @@ COMPARE_SCRIPTS = (
     "compare-desk",
     "compare",
 )
+# The inside of a pixel, in space.
+SPACE_SCRIPTS = (
+    "space-vectors",
+    "space-shapes",
+    "space-painter",
+    "space-orbit",
+    "inspect-record",
+    "inspect-space",
+    "inspect",
+)
 
 
 # FLIP: where, and how much, a person who switches between two pictures would see them differ.

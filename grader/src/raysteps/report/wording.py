@@ -43,10 +43,15 @@ def typed(words: Sequence[str]) -> str:
     return f"{own_command()} {systems.quote_command(words)}"
 
 
+def inspect_options(args: Sequence[str]) -> list[str]:
+    """Those with which `inspect` looks into a picture that was made with `args`."""
+    pairs = zip(args[::2], args[1::2], strict=False)
+    return [word for name, value in pairs if name in _OF_INSPECT for word in (name, value)]
+
+
 def _inspect_words(case: ImageCase, x: int, y: int, has_reference: bool) -> list[str]:
     """After `./raysteps`: looks into a pixel of a picture, beside the reference's where the reader's kit has one."""
-    pairs = zip(case.args[::2], case.args[1::2], strict=False)
-    options = [word for name, value in pairs if name in _OF_INSPECT for word in (name, value)]
+    options = inspect_options(case.args)
     return ["inspect", case.scene, str(x), str(y), *options, *(["--against", "reference"] if has_reference else [])]
 
 

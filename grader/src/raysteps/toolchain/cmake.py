@@ -106,7 +106,7 @@ class BuildTree:
         cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for whoever uses ccache: copies of the kit share it
         command: list[str | Path] = ["cmake", "-E", "env", cached, "cmake", "--build", self.folder]
         if "CMAKE_BUILD_PARALLEL_LEVEL" not in os.environ:
-            command.append("--parallel")
+            command += ["--parallel", str(os.cpu_count() or 1)]  # make would start all at once without a number
         if targets:
             command += ["--target", *targets]
         return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root, heard=_HowFar(say).heard)

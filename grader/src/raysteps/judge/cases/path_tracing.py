@@ -32,11 +32,13 @@ from raysteps.judge.protocol import (
     f32,
     rounded,
     text,
+    vec_of,
     vector_words,
+    whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import MOST_ASKED, PathHit, PathScript, Scatter
-from raysteps.judge.statistics import Numbers, has_mean, is_uniform
+from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform
 
 # Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
 # compared with the reference's. Seen from above the tip of such a direction lies anywhere in the unit disk, all places
@@ -46,18 +48,6 @@ _UNIT = 1e-4
 _FEW, _MANY = 8, 16  # bins for each of the two
 _MANY_DIRECTIONS = 16_384  # from here on the finer bins
 _MOST = 40_000
-
-
-def _vec(inputs: Inputs, name: str) -> Vector:
-    value = inputs[name]
-    assert isinstance(value, Vec)
-    return value.value
-
-
-def _whole(inputs: Inputs, name: str) -> int:
-    value = inputs[name]
-    assert isinstance(value, Whole)
-    return value.value
 
 
 def _unit_problem(directions: Numbers, normal: Vector) -> str:
@@ -72,7 +62,7 @@ def _unit_problem(directions: Numbers, normal: Vector) -> str:
 
 def _shares(directions: Numbers, normal: Vector) -> Numbers:
     """Two even numbers from 0 to 1 of each direction, where its density is right."""
-    axis = next_axis((0.0, 0.0, 1.0)) if abs(normal[0]) < 0.7 else (0.0, 1.0, 0.0)
+    axis = (1.0, 0.0, 0.0) if abs(normal[0]) < 0.7 else (0.0, 1.0, 0.0)
     side = unit(cross(normal, axis))
     x, y = directions @ np.array(side), directions @ np.array(cross(normal, side))
     return np.stack([np.minimum(x * x + y * y, 1.0), np.arctan2(y, x) / (2 * math.pi) % 1.0], axis=1)
@@ -113,9 +103,9 @@ def _words(v: Sequence[float] | Numbers) -> str:
 
 
 def _directions_problem(inputs: Inputs, _expected: Numbers, actual: Numbers) -> str:
-    if len(actual) != _whole(inputs, "times"):
+    if len(actual) != whole_of(inputs, "times"):
         return "no proper answer came"
-    return _density_problem(actual, _vec(inputs, "normal"))
+    return _density_problem(actual, vec_of(inputs, "normal"))
 
 
 def _draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
@@ -160,7 +150,7 @@ def _pdf_above(draw: RandomSource, low: float, high: float) -> Inputs:
 
 def _pdf_below(draw: RandomSource) -> Inputs:
     inputs = _pdf_above(draw, 0.01, 0.99)
-    return _pdf(_vec(inputs, "normal"), times(-1, _vec(inputs, "direction")))
+    return _pdf(vec_of(inputs, "normal"), times(-1, vec_of(inputs, "direction")))
 
 
 def _simple_pdf(draw: RandomSource) -> Inputs:
@@ -236,7 +226,7 @@ def _of_the_hit(inputs: Inputs) -> tuple[Vector, Vector]:
 
 def _sample_problems(inputs: Inputs, actual: _Samples) -> tuple[str, ...]:
     normal, albedo = _of_the_hit(inputs)
-    if len(actual.rows) + actual.nothing != _whole(inputs, "times"):
+    if len(actual.rows) + actual.nothing != whole_of(inputs, "times"):
         return ("no proper answer came",) * 3
     if not any(albedo):
         return ("a surface that sends no light on gives samples",) * 3 if len(actual.rows) else ("", "", "")
@@ -349,7 +339,7 @@ class _Light:
 
 
 def _is_for_many(inputs: Inputs) -> bool:
-    return _whole(inputs, "most") > 0
+    return whole_of(inputs, "most") > 0
 
 
 def _read_light(tokens: TokenReader) -> _Light:
@@ -384,7 +374,7 @@ def mean_light(script: PathScript) -> Vector:
             light += weight * np.array(script.background)
             break
         hit = script.hits[min(number, len(script.hits) - 1)]
-        light += weight * (np.array(hit.light) + (np.array(hit.emission) if sees_lamps else 0.0))
+        light += weight * (np.array(hit.light) + (np.array(hit.emission) if sees_lamps and hit.front_face else 0.0))
         if hit.scatter is None:
             break
         weight = weight * np.array(hit.scatter.weight)
@@ -408,17 +398,27 @@ def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -
     return False
 
 
-_TOO_LONG = 4.0  # times the reference's questions
+_SPREAD = 1.5  # standard deviation of a path's questions, as a share of their mean, at most
+_SLACK = 0.01
+
+
+def _length_problem(expected: Estimates, actual: Estimates) -> str:
+    """Roulette says how many rays a path has on average. Who ends it by other rules asks more or less."""
+    share = actual.cost / actual.count / (expected.cost / expected.count)
+    most = _SLACK + DEVIATIONS * _SPREAD * math.sqrt(1 / actual.count + 1 / expected.count)
+    if abs(share - 1) <= most:
+        return ""
+    return f"paths {'go on for too long' if share > 1 else 'end too soon'}"
 
 
 def _light_problem(inputs: Inputs, expected: _Light, actual: _Light) -> str:
     if (expected.many is None) != (actual.many is None):
         return "no proper answer came"
     if expected.many is not None and actual.many is not None:
-        per_path = actual.many.cost / actual.many.count
-        if per_path > _TOO_LONG * expected.many.cost / expected.many.count:
-            return "paths go on for much too long"
-        return estimates_problem("the light", mean_light(_script(inputs)), expected.many, actual.many)
+        return first(
+            _length_problem(expected.many, actual.many),
+            estimates_problem("the light", mean_light(_script(inputs)), expected.many, actual.many),
+        )
     counts = ""
     if len(actual.cast) != len(expected.cast):
         counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
@@ -448,19 +448,27 @@ def _often(draw: RandomSource, script: PathScript, bias: float) -> Inputs:
 
 
 def _path_hit(
-    draw: RandomSource, number: int, *, emission: bool = False, specular: bool = False, last: bool = False
+    draw: RandomSource,
+    number: int,
+    *,
+    emission: bool = False,
+    specular: bool = False,
+    last: bool = False,
+    behind: bool = False,
 ) -> PathHit:
     """Light that is sampled there, unless it is a mirror; emission where it is wanted."""
     light = _BLACK if specular else draw.color(0.1, 1.0)
     scatter = None if last else Scatter(draw.direction(), draw.color(0.3, 0.9), specular)
     sent = draw.color(0.5, 4.0) if emission else _BLACK
-    return PathHit(number + 1 + draw.real(0.1, 0.8), draw.direction(), sent, light, scatter)
+    return PathHit(number + 1 + draw.real(0.1, 0.8), draw.direction(), sent, light, scatter, not behind)
 
 
 def _hits(draw: RandomSource, kinds: Sequence[str]) -> tuple[PathHit, ...]:
-    """Letters: e that it sends light itself, s that it is specular, x that the path ends there."""
+    """Letters: e that it sends light itself, b that it is met from behind, s that it is specular, x that the path ends
+    there."""
     return tuple(
-        _path_hit(draw, i, emission="e" in kind, specular="s" in kind, last="x" in kind) for i, kind in enumerate(kinds)
+        _path_hit(draw, i, emission="e" in kind, specular="s" in kind, last="x" in kind, behind="b" in kind)
+        for i, kind in enumerate(kinds)
     )
 
 
@@ -494,19 +502,22 @@ def _furnace(draw: RandomSource, low: float, high: float) -> PathScript:
     return PathScript(_BLACK, goes_on=True, hits=(hit,))
 
 
+_LATE = 32  # bounces: who cuts paths off finds nothing
+
+
 def _late(draw: RandomSource) -> PathScript:
-    """All light is found behind six or seven bounces."""
+    """All light is found behind many bounces: roulette has taken most of the paths, and those left count more."""
     dark = [
         PathHit(
             i + 1 + draw.real(0.1, 0.8),
             draw.direction(),
             _BLACK,
             _BLACK,
-            Scatter(draw.direction(), _gray(draw, 0.85, 0.99)),
+            Scatter(draw.direction(), _gray(draw, 0.97, 0.99)),
         )
-        for i in range(draw.whole(6, 7))
+        for i in range(_LATE)
     ]
-    last = PathHit(9.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
+    last = PathHit(_LATE + 2.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
     return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
 
 
@@ -540,14 +551,15 @@ _PATH_LIGHT = Function(
         Group("up to four hits", _plain),
         Group("a lamp that is seen", _of_kinds(("ex",), ("e", "x"), ("e", "", "x"))),
         Group("a lamp behind a diffuse bounce", _of_kinds(("", "ex"), ("", "", "ex"), ("", "e", "ex"))),
+        Group("a lamp from behind", _of_kinds(("ebx",), ("eb", "x"), ("s", "ebx"), ("e", "ebx"))),
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "e", "x"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", ""), ("", "s", ""), background=True)),
         Group("a very bright lamp", _bright),
         Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: _often(d, _furnace(d, 0.75, 0.8), 0.06)),
-        Group("light found late", lambda d: _often(d, _late(d), 0.06)),
-        Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.06)),
-        Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.05)),
+        Group("light found late", lambda d: _often(d, _late(d), 0.2)),
+        Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.08)),
+        Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.08)),
     ),
 )
 

@@ -19,7 +19,7 @@ from raysteps.judge.answers import (
     words_of_vector,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text
+from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text, whole_of
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_uniform, many_alike
 
@@ -54,12 +54,6 @@ def _words_of_draws(draws: _Draws) -> str:
         return "nothing"
     found = draws.points[0]
     return f"{len(found)} points, first " + ", ".join(f"({text(f32(x))}, {text(f32(y))})" for x, y in found[:8])
-
-
-def _whole(inputs: Inputs, name: str) -> int:
-    value = inputs[name]
-    assert isinstance(value, Whole)
-    return value.value
 
 
 def _in_squares(points: Numbers, side: int) -> Numbers | None:
@@ -118,7 +112,7 @@ def _problem_of_squares(shares: Numbers) -> str:
 
 
 def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
-    side, times = _whole(inputs, "side"), _whole(inputs, "times")
+    side, times = whole_of(inputs, "side"), whole_of(inputs, "times")
     if len(actual.points) != times + 1:
         return "no proper answer came"
     if any(len(points) != side * side for points in actual.points):

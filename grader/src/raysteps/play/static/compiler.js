@@ -66,7 +66,7 @@ async function prepare(message) {
 }
 
 /** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely. */
-async function prepareHeaders(step, source) {
+async function prepareHeaders(job, step, source) {
   const includes = firstIncludes(source);
   const path = `${step.headers.path}.pch`;
   const known = headers.get(step.number);
@@ -77,6 +77,7 @@ async function prepareHeaders(step, source) {
     if (includes === step.headers.includes) {
       files.write(path, await bytesOf(step.headers.file));
     } else {
+      postMessage({ job, headers: true });
       code = runProgram(clang, filled(kit.headers, [step.headers.path], path), files).code;
     }
     headers.set(step.number, { includes, path: code === 0 ? path : null });
@@ -90,7 +91,7 @@ function filled(command, input, output) {
 }
 
 /** The path of the object, and what the compiler says. */
-async function compile(step, source) {
+async function compile(job, step, source) {
   const key = `${step.number} ${source}`;
   const known = compiled.get(step.number);
   if (known?.key === key) {
@@ -99,7 +100,7 @@ async function compile(step, source) {
   const object = `/work/own-${step.number}.o`;
   files.remove(object);
   files.write(step.source, new TextEncoder().encode(source));
-  const path = await prepareHeaders(step, source);
+  const path = await prepareHeaders(job, step, source);
   const words = [...filled(kit.compile, [step.source], object), ...(path ? ["-include-pch", path] : [])];
   const said = runProgram(clang, words, files);
   const made = { key, object, code: said.code, says: said.stderr + said.stdout };
@@ -108,22 +109,22 @@ async function compile(step, source) {
 }
 
 /** Object files and libraries in the order in which the linker shall see them. */
-function linkInputs(number, own) {
-  const parts = [...kit.objects.web, ...own.values()];
+function linkInputs(number, own, inspects) {
+  const parts = [...kit.objects[inspects ? "inspect" : "web"], ...kit.objects.exceptions, ...own.values()];
   for (const [name, paths] of Object.entries(kit.objects)) {
     if (name.startsWith("step-") && !own.has(name.slice("step-".length))) {
       parts.push(...paths);
     }
   }
-  return [...parts, ...kit.objects[`test-${number}`], ...kit.objects.kit];
+  return [...parts, ...(inspects ? [] : kit.objects[`test-${number}`]), ...kit.objects.kit];
 }
 
-async function build({ job, number, sources }) {
+async function build({ job, number, sources, inspects }) {
   const start = performance.now();
   const own = new Map();
   for (const [one, source] of Object.entries(sources)) {
     const step = kit.steps[one];
-    const made = await compile(step, source);
+    const made = await compile(job, step, source);
     if (one === number || made.code !== 0) {
       postMessage({ job, says: { number: one, code: made.code, text: made.says } });
     }
@@ -135,7 +136,7 @@ async function build({ job, number, sources }) {
   }
   const compiledAt = performance.now();
   files.remove("/work/program.wasm");
-  const said = runProgram(clang, filled(kit.link, linkInputs(number, own), "/work/program.wasm"), files);
+  const said = runProgram(clang, filled(kit.link, linkInputs(number, own, inspects), "/work/program.wasm"), files);
   const bytes = said.code === 0 ? files.read("/work/program.wasm").slice() : null;
   if (said.code !== 0) {
     postMessage({ job, says: { number, code: said.code, text: said.stderr } });

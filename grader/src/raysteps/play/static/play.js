@@ -2,14 +2,19 @@
 
 import { Editor } from "./editor.js";
 import { Figures } from "./figures.js";
+import { DiskFolder } from "./folder.js";
+import { Inside } from "./inside.js";
+import { compareEstimates, readEstimates } from "./noise.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
-import { Compiler, Runner } from "./programs.js";
-import { linkerWords, readReport } from "./report.js";
+import { Compiler, Runner, whyNothing } from "./programs.js";
+import { openTexts, textLink } from "./reading.js";
+import { linkerWords, printedIn, readReport } from "./report.js";
 import { Turn, textsIn, Work, zipOf } from "./work.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
+const ESTIMATES = ["--estimates", "/out/estimates"]; // of a noisy picture
 const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
 const SOON = 3000; // milliseconds until a service worker is there, or the page begins without it
@@ -32,21 +37,6 @@ function problemsIn(text) {
     severity: kind === "note" ? "info" : kind,
     message,
   }));
-}
-
-/** Why a run gave nothing, in words; `what` is what it was to give. */
-function whyNothing(ran, what) {
-  if (ran.stopped === "time") {
-    return `${what} was not ready in time. ${data.words.endless}`;
-  }
-  if (ran.stopped) {
-    return `${what} was stopped.`;
-  }
-  if (ran.crashed) {
-    return `${what} was not made: the program crashed (${ran.crashed}).`;
-  }
-  const said = ran.stderr.trim().split("\n").at(-1);
-  return `${what} was not made: the program gave up with exit code ${ran.code}${said ? `: ${said}` : "."}`;
 }
 
 /** Where the page is published, a service worker keeps its files. */
@@ -78,15 +68,20 @@ class Page {
   #tester = new Runner();
   #painter = new Runner();
   #figures = new Figures();
+  #inside = null;
+  #disk = null;
   #keepTimer = 0;
+  #kept = ""; // the text that needs no keeping
   #run = 0; // counts runs: what an older one finds is not shown
   #files = new Map();
 
   async start() {
     await keepFiles(); // those that come next, too
     this.#work = await Work.open("raysteps-play");
+    this.#disk = new DiskFolder(this.#work);
     this.#editor = new Editor(element("play-editor"), "Source of the step", () => this.#changed());
     this.#compiler = new Compiler(data.kit, (part) => this.#loading(part));
+    this.#inside = new Inside(this.#compiler, data.words.endless);
     for (const step of data.steps) {
       element("play-step").append(new Option(`${step.number} ${step.title}`, step.number));
     }
@@ -100,6 +95,10 @@ class Page {
     element("play-save").addEventListener("click", () => this.#saveZip());
     element("play-load").addEventListener("click", () => element("play-zip").click());
     element("play-zip").addEventListener("change", (event) => this.#openZip(event.target));
+    element("play-folder").addEventListener("click", () => this.#link());
+    element("play-theirs").addEventListener("click", () => this.#settle(true));
+    element("play-ours").addEventListener("click", () => this.#settle(false));
+    addEventListener("focus", async () => (await this.#sync(false)) && this.run());
     element("play-next").addEventListener("click", () => {
       location.hash = this.#next.number;
     });
@@ -112,12 +111,17 @@ class Page {
       }
     });
     element("play-back").addEventListener("click", () => this.#bringBack());
+    openTexts((error) => this.tellFault(error));
     addEventListener("keydown", (event) => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
         event.preventDefault();
         this.run();
       }
     });
+    if (DiskFolder.isThere()) {
+      await this.#disk.reopen();
+      this.#tellFolder();
+    }
     await this.#open();
     await this.run();
   }
@@ -143,10 +147,12 @@ class Page {
     this.stop();
     this.#step = wanted; // and its text with it, without a pause: what is kept is always the step's own
     this.#show(source, isMine);
-    element("play-next").hidden = true;
+    element("play-next").hidden = element("play-stale").hidden = true;
     element("play-step").value = wanted.number;
     document.title = `${wanted.number} ${wanted.title} · Raysteps`;
     element("play-file").textContent = wanted.path;
+    const texts = Object.entries(wanted.texts).map(([name, place]) => textLink(name, place));
+    element("play-texts").replaceChildren(...texts.flatMap((link) => [" ", link]));
     element("play-handout").innerHTML = handout;
     element("play-handout").scrollTop = 0;
     this.#figures.open(wanted.number, element("play-handout"));
@@ -156,6 +162,7 @@ class Page {
     }
     element("play-console").textContent = "";
     this.#offer(old);
+    await this.#sync(false);
     if (before) {
       await this.run();
     }
@@ -168,6 +175,7 @@ class Page {
   /** The text of the step, which can be changed if this tab is the one that writes it. */
   #show(source, isMine) {
     this.#isMine = isMine;
+    this.#kept = source;
     this.#editor.load(source, this.#step.names, !isMine);
     element("play-elsewhere").hidden = isMine;
     for (const room of ["play-reset", "play-back", "play-load"]) {
@@ -201,12 +209,10 @@ class Page {
 
   async #keep() {
     clearTimeout(this.#keepTimer);
-    if (
-      this.#step &&
-      this.#isMine &&
-      (this.#editor.text !== this.#step.stub || (await this.#work.read(this.#step.id)))
-    ) {
-      await this.#work.write(this.#step.id, this.#editor.text);
+    const { text } = this.#editor;
+    if (this.#step && this.#isMine && text !== this.#kept) {
+      this.#kept = text;
+      await this.#work.write(this.#step.id, text);
       element("play-kept").textContent = "Kept in this browser.";
     }
   }
@@ -230,7 +236,7 @@ class Page {
     if (step !== this.#step) {
       return;
     }
-    this.#editor.load(step.stub, step.names);
+    this.#show(step.stub, true);
     this.#offer(old);
     await this.#work.forget(step.id);
     await this.run();
@@ -244,7 +250,7 @@ class Page {
       return;
     }
     const old = this.#editor.text;
-    this.#editor.load(text, step.names);
+    this.#show(text, true);
     this.#editor.focus(); // the button may be gone
     this.#offer(old);
     await this.#work.write(step.id, text);
@@ -308,6 +314,123 @@ class Page {
     element("play-kept").textContent = `${zip.name}: ${found}.${elsewhere}`;
   }
 
+  // A folder on disk.
+
+  #tellFolder() {
+    const { name, isLinked } = this.#disk;
+    const button = element("play-folder");
+    button.hidden = false;
+    button.textContent = isLinked ? `Unlink ${name}` : name ? `Go on with ${name}` : "Link a folder";
+    if (!isLinked) {
+      element("play-both").hidden = true;
+    }
+  }
+
+  /** The button: takes a folder, goes on with the one of the last visit, or leaves it. */
+  async #link() {
+    try {
+      if (this.#disk.isLinked) {
+        await this.#disk.forget(data.steps);
+      } else if (this.#disk.name) {
+        await this.#disk.reopen(true);
+      } else {
+        await this.#disk.choose(data.steps);
+      }
+    } catch (error) {
+      if (error.name !== "AbortError") {
+        element("play-kept").textContent = `The folder cannot be linked: ${error.message}`;
+      }
+    }
+    this.#tellFolder();
+    if (this.#disk.isLinked) {
+      await this.#syncOthers();
+      await this.run();
+    }
+  }
+
+  async #onDisk(action) {
+    try {
+      return await action();
+    } catch (error) {
+      this.#disk.close();
+      this.#tellFolder();
+      element("play-kept").textContent = `${this.#disk.name} cannot be used: ${error.message}`;
+      return null;
+    }
+  }
+
+  /** Takes the open step from the folder where only the file was changed, and `writes` it there where only the page's
+   * text was; where both were, the reader is asked. Whether there is another text now. */
+  async #sync(writes) {
+    const [step, mine] = [this.#step, this.#editor.text];
+    if (!this.#disk.isLinked || !this.#isMine) {
+      return false;
+    }
+    const found = await this.#onDisk(() => this.#disk.changes(step, mine));
+    if (!found || step !== this.#step || mine !== this.#editor.text) {
+      return false; // it was typed in meanwhile, and is looked at again
+    }
+    element("play-both").hidden = found.by !== "both";
+    if (found.by === "disk") {
+      await this.#replace(found.text);
+      await this.#disk.accept(step, found.text);
+      element("play-kept").textContent = `Taken from ${this.#disk.name}, where it was changed.`;
+      return true;
+    }
+    if (found.by === "page" && writes && (found.text !== null || mine !== step.stub)) {
+      await this.#onDisk(() => this.#disk.write(step, mine));
+      element("play-kept").textContent = this.#disk.isLinked ? `Saved in ${this.#disk.name}.` : "";
+    }
+    return false;
+  }
+
+  /** Likewise for the steps that are not open; what was changed on both sides waits until it is. */
+  async #syncOthers() {
+    for (const step of data.steps.filter((one) => one !== this.#step)) {
+      if (!(await Turn.isFree(turnOf(step)))) {
+        continue;
+      }
+      const kept = await this.#work.read(step.id);
+      const found = await this.#onDisk(() => this.#disk.changes(step, kept ?? step.stub));
+      if (found?.by === "disk") {
+        await this.#work.write(replaced(step), kept ?? step.stub);
+        await this.#work.write(step.id, found.text);
+        await this.#disk.accept(step, found.text);
+      } else if (found?.by === "page" && kept) {
+        await this.#onDisk(() => this.#disk.write(step, kept));
+      }
+    }
+  }
+
+  /** Another text for the open step; the one that stood there can be brought back. */
+  async #replace(text) {
+    const [step, old] = [this.#step, this.#editor.text];
+    await this.#work.write(replaced(step), old);
+    await this.#work.write(step.id, text);
+    if (step === this.#step) {
+      this.#show(text, this.#isMine);
+      this.#offer(old);
+    }
+  }
+
+  /** Both were changed, and the reader has chosen. */
+  async #settle(isTheirs) {
+    const [step, mine] = [this.#step, this.#editor.text];
+    const found = await this.#onDisk(() => this.#disk.changes(step, mine));
+    if (found?.by === "both") {
+      await this.#disk.accept(step, found.text); // so that only the page's text is another one
+      if (isTheirs) {
+        await this.#replace(found.text);
+      } else {
+        await this.#work.write(replaced(step), found.text);
+        this.#offer(found.text);
+      }
+    }
+    element("play-both").hidden = true;
+    this.#editor.focus(); // the button is gone
+    await this.run();
+  }
+
   #hint() {
     const room = element("play-hints");
     const text = this.#step.hints[room.childElementCount];
@@ -354,6 +477,7 @@ class Page {
     this.#tester.stop("hand");
     this.#painter.stop("hand");
     this.#figures.stop();
+    this.#inside.stop();
     this.#say("idle", "Stopped.");
   }
 
@@ -364,6 +488,7 @@ class Page {
     const start = performance.now();
     try {
       await this.#keep();
+      await this.#sync(true);
       this.#say("busy", "Loading the compiler ...");
       await this.#compiler.prepare();
       const sources = await this.#sourcesFor(step);
@@ -371,11 +496,14 @@ class Page {
         return; // or else its job would end the one of a newer run
       }
       this.#say("busy", "Compiling ...");
-      const built = await this.#compiler.build(step.number, sources, COMPILE_SECONDS);
+      const onHeaders = () =>
+        run === this.#run && this.#say("busy", "Compiling what you include (once, some seconds) ...");
+      const built = await this.#compiler.build(step.number, sources, COMPILE_SECONDS, { onHeaders });
       if (run !== this.#run) {
         return;
       }
       this.#tellProblems(step, built);
+      element("play-stale").hidden = built.program !== null || !element("play-first").childElementCount;
       if (!built.program) {
         this.#say("bad", built.stopped ?? "It does not compile.");
         return;
@@ -385,6 +513,7 @@ class Page {
         return;
       }
       this.#figures.built(module);
+      this.#inside.built(step, sources);
       this.#say("busy", "Testing and drawing ...");
       element("play-console").textContent = "";
       const current = () => run === this.#run;
@@ -443,7 +572,7 @@ class Page {
   }
 
   #print(ran) {
-    const text = `${ran.stderr ?? ""}`.trim();
+    const text = `${ran.stdout ?? ""}\n${ran.stderr ?? ""}`.trim();
     if (text) {
       const room = element("play-console");
       const lines = new Set(`${room.textContent}\n${text}`.split("\n").filter(Boolean));
@@ -458,7 +587,8 @@ class Page {
     const task = { module, files: {}, wanted: ["/out/report.xml"] };
     let limit = step.seconds;
     const ask = (more = []) => this.#tester.run({ ...task, words: [...words, ...more] }, limit);
-    const reportOf = (ran) => readReport(new TextDecoder().decode(ran.made?.["/out/report.xml"] ?? new Uint8Array()));
+    const textOf = (ran) => new TextDecoder().decode(ran.made?.["/out/report.xml"] ?? new Uint8Array());
+    const reportOf = (ran) => readReport(textOf(ran));
     const together = await ask();
     limit /= together.stopped ? AFTER_A_STOP : 1;
     let results = together.code === undefined ? null : reportOf(together);
@@ -470,12 +600,12 @@ class Page {
         }
         const ran = await ask([name.replace(/([\\,["])/g, "\\$1")]);
         const [found] = (ran.code === undefined ? null : reportOf(ran)) ?? [];
-        results.push(found ?? { name, passed: false, message: whyNothing(ran, "The test") });
+        results.push(found ?? { name, passed: false, message: whyNothing(ran, "The test", data.words.endless) });
         this.#print(ran);
       }
     }
     if (current()) {
-      this.#print(together);
+      this.#print({ ...together, stdout: `${together.stdout ?? ""}\n${printedIn(textOf(together))}` });
       this.#tellTests(step, results);
     }
     return results;
@@ -484,6 +614,15 @@ class Page {
   #tellTests(step, results) {
     const open = unfinished(this.#editor.text);
     const functionsOf = Object.fromEntries(step.tests.map(({ name, functions }) => [name, functions]));
+    const linked = (panel) => {
+      for (const room of panel.querySelectorAll("dd")) {
+        const [, name, line] = /^([\w.]+):(\d+)$/.exec(room.textContent) ?? [];
+        if (step.texts[name]) {
+          room.replaceChildren(textLink(name, step.texts[name], line));
+        }
+      }
+      return panel;
+    };
     const isOpen = ({ name, passed }) => !passed && functionsOf[name]?.some((one) => open.has(one));
     const wrong = results.filter((one) => !one.passed && !isOpen(one));
     const waiting = results.filter(isOpen);
@@ -501,13 +640,15 @@ class Page {
         : [];
     element("play-tests").replaceChildren(
       ...wrong.map(({ name, failure, message }) =>
-        watchTest({
-          name,
-          message: message ?? failure?.notes ?? "",
-          expected: failure?.expected,
-          actual: failure?.got,
-          place: failure?.where,
-        }),
+        linked(
+          watchTest({
+            name,
+            message: message ?? failure?.notes ?? "",
+            expected: failure?.expected,
+            actual: failure?.got,
+            place: failure?.where,
+          }),
+        ),
       ),
       ...list(`${waiting.length} wait for a function that is not written yet`, waiting),
       ...list(`${right.length} of ${results.length} tests pass`, right),
@@ -530,9 +671,9 @@ class Page {
       const shown = this.#frame(picture);
       const task = {
         module,
-        words: ["raytrace", "/scene.nff", ...picture.args, ...data.words.raytrace],
+        words: ["raytrace", "/scene.nff", ...picture.args, ...data.words.raytrace, ...(picture.noise ? ESTIMATES : [])],
         files: { "/scene.nff": await this.#fileOf(picture.scene) },
-        wanted: ["/out/picture.ppm", "/out/stats.json"],
+        wanted: ["/out/picture.ppm", "/out/stats.json", "/out/estimates"],
       };
       if (!current()) {
         return [];
@@ -564,6 +705,7 @@ class Page {
         make("p", { class: "play-words" }),
         make("div", { class: "play-pair" }, canvas, goal),
       );
+      this.#inside.offer(root, picture, () => this.#fileOf(picture.scene));
       element(picture === this.#step.pictures[0] ? "play-first" : "play-pictures").append(root);
     }
     const [canvas] = root.getElementsByTagName("canvas");
@@ -603,9 +745,12 @@ class Page {
     const bytes = ran.code === 0 ? ran.made["/out/picture.ppm"] : null;
     const mine = bytes ? readPpm(bytes) : null;
     const reference = await readImage(picture.reference);
-    const verdict = mine
-      ? compare(mine, reference, picture.maxWrong)
-      : { passed: false, message: whyNothing(ran, "The picture") };
+    const estimates = mine && picture.noise ? readEstimates(ran.made["/out/estimates"]) : null;
+    const verdict = estimates
+      ? compareEstimates(estimates, picture.noise)
+      : mine && !picture.noise
+        ? compare(mine, reference, picture.maxWrong)
+        : { passed: false, message: whyNothing(ran, "The picture", data.words.endless) };
     const stats = ran.made?.["/out/stats.json"];
     if (verdict.passed && picture.maxShare !== null && stats) {
       const { share_tested: share } = JSON.parse(new TextDecoder().decode(stats));

@@ -1,6 +1,28 @@
 // The workers that compile and run, and what is done when one of them does not answer: it is ended, and another one
 // takes its place. The page itself never waits.
 
+// What engines call a crash, in the words of common/process.py.
+const CRASHES = [
+  [/call stack|recursion/, "a recursion without an end"],
+  [/out of bounds/, "memory that is not its own, or a recursion without an end"],
+];
+
+/** Why a run gave nothing, in words; `what` is what it was to give, `endless` what is asked where it did not end. */
+export function whyNothing(ran, what, endless) {
+  if (ran.stopped === "time") {
+    return `${what} was not ready in time. ${endless}`;
+  }
+  if (ran.stopped) {
+    return `${what} was stopped.`;
+  }
+  if (ran.crashed) {
+    const [, why] = CRASHES.find(([known]) => known.test(ran.crashed)) ?? [null, ran.crashed];
+    return `${what} did not come to its end: the program crashed (${why}).`;
+  }
+  const said = ran.stderr.trim().split("\n").at(-1);
+  return `${what} did not come to its end: the program gave up with exit code ${ran.code}${said ? `: ${said}` : "."}`;
+}
+
 /** Compiles and links, once it is prepared. One job at a time; a new one ends an old one. */
 export class Compiler {
   #kit;
@@ -47,8 +69,12 @@ export class Compiler {
     });
   }
 
-  /** `{program, says: [{number, code, text}], seconds}`; `stopped` where somebody ended it, or its time was over. */
-  async build(number, sources, limit) {
+  /**
+   * `{program, says: [{number, code, text}], seconds}`; `stopped` where somebody ended it, or its time was over. The
+   * program tests and draws, or it inspects pixels. `onHeaders` hears that other headers are compiled than those of
+   * the stub, which takes its time.
+   */
+  async build(number, sources, limit, { inspects = false, onHeaders = () => {} } = {}) {
     const job = ++this.#lastJob;
     const says = [];
     return new Promise((resolve, reject) => {
@@ -67,6 +93,8 @@ export class Compiler {
           end(data);
         } else if (data.job !== job) {
           return;
+        } else if (data.headers) {
+          onHeaders();
         } else if (data.says) {
           says.push(data.says);
         } else if (data.failed) {
@@ -76,7 +104,7 @@ export class Compiler {
           end(data);
         }
       };
-      this.#worker.postMessage({ job, number, sources });
+      this.#worker.postMessage({ job, number, sources, inspects });
     });
   }
 

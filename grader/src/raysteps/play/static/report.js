@@ -173,6 +173,15 @@ function outcome(element) {
   return { name: element.getAttribute("name") ?? "", passed, failure };
 }
 
+/** What a step wrote into the streams that Catch2 takes to itself while a test runs; a crash leaves no report. */
+export function printedIn(xml) {
+  if (!xml) {
+    return "";
+  }
+  const root = new DOMParser().parseFromString(xml, "application/xml");
+  return [...root.querySelectorAll("StdOut, StdErr")].map((room) => room.textContent.trim()).join("\n");
+}
+
 /**
  * The test cases of a complete report, or nothing where it was cut short.
  * @param {string} xml

@@ -14,6 +14,8 @@ class CompareMarks {
   #offered = null;
   /** @type {(place: {x: number, y: number}) => void} */
   onPixel = () => {};
+  /** @type {(place: {x: number, y: number}) => void} of the pixel to inspect */
+  onChoice = () => {};
 
   /**
    * @param {Record<string, any>} ui of `makeControls`
@@ -29,7 +31,7 @@ class CompareMarks {
   /** The worst pixel is worth a look; where none is wrong, the one in the middle. */
   offer(pair) {
     this.#offered = pair.worst ?? { x: pair.width >> 1, y: pair.height >> 1 };
-    this.#tellCommand();
+    this.#tellChoice();
   }
 
   /** The pixel under the pointer; without one the readout goes back to the cursor, or to the pixel that is kept. */
@@ -49,13 +51,13 @@ class CompareMarks {
     this.#say(pair, this.cursor);
   }
 
-  /** Keeps a pixel and fills in the command that inspects it. */
+  /** Keeps a pixel, which is the one to inspect then. */
   keep(pair, pixel) {
     this.kept = pixel;
     this.cursor = null;
     this.#tell(pair, pixel);
     this.#say(pair, pixel);
-    this.#tellCommand();
+    this.#tellChoice();
   }
 
   #tell(pair, pixel) {
@@ -69,9 +71,10 @@ class CompareMarks {
     this.#ui.say.textContent = pixelInWords(pair, this.#names, pixel);
   }
 
-  #tellCommand() {
+  #tellChoice() {
+    const { x, y } = this.kept ?? this.#offered;
+    this.onChoice({ x, y });
     if (this.#inspect) {
-      const { x, y } = this.kept ?? this.#offered;
       this.#ui.command.textContent = this.#inspect.replace("{x}", x).replace("{y}", y);
       this.#ui.inspect.hidden = false;
     }

@@ -91,6 +91,7 @@ class ComparePictures extends HTMLElement {
     );
     this.#desk.counted = this.hasAttribute("wrong-share") ? Number(this.getAttribute("wrong-share")) : null;
     this.#desk.marks.onPixel = ({ x, y }) => this.#tell(x, y);
+    this.#desk.marks.onChoice = (detail) => this.dispatchEvent(new CustomEvent("choose", { bubbles: true, detail }));
     const sized = this.#image("reference") ?? this.#image("mine");
     this.append(this.#desk.ui.root);
     this.#desk.shape(Number(sized?.getAttribute("width") ?? 4), Number(sized?.getAttribute("height") ?? 3));

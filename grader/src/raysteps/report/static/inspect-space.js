@@ -47,6 +47,11 @@ class InsideView {
     new ResizeObserver(() => this.later()).observe(canvas);
   }
 
+  /** Gives the stage back, of which a page has a few only. */
+  end() {
+    this.painter.gl.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+
   /** The edges from the eye to the corners of the picture, drawn near the eye. @returns {[Vec3, Vec3][]} */
   pyramid() {
     const { from, corners } = this.space.camera;

@@ -3,11 +3,23 @@
 /** The stage with its controls, and the tree of rays in words beside it; each follows the other. */
 class PixelInside extends HTMLElement {
   connectedCallback() {
-    this.spaces = JSON.parse(document.getElementById("data").textContent);
-    this.names = Object.keys(this.spaces);
-    this.piece = (name) => this.querySelector(`[data-part="${name}"]`);
+    if (this.dataset.from) this.begin(JSON.parse(document.getElementById(this.dataset.from).textContent));
+  }
+
+  disconnectedCallback() {
+    this.stop();
+    this.view?.end();
+  }
+
+  piece(name) {
+    return this.querySelector(`[data-part="${name}"]`);
+  }
+
+  /** @param {Record<string, object>} records by the names that entries of the tree have; there already */
+  begin(records) {
+    this.spaces = Object.fromEntries(Object.entries(records).map(([name, record]) => [name, spaceOf(record)]));
     try {
-      this.choose(this.names[0]);
+      this.choose(Object.keys(records)[0]);
     } catch (error) {
       this.withoutStage(error.message);
       return;

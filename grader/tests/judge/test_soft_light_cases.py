@@ -1,0 +1,113 @@
+"""The judge of step 12: right points pass whatever the mapping, wrong ones are told in words."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from raysteps.judge.functions import Function, functions_of
+from raysteps.judge.protocol import Inputs
+from raysteps.judge.random_source import RandomSource
+from raysteps.judge.statistics import Numbers
+
+pytestmark = pytest.mark.portable
+
+_FUNCTIONS = functions_of("12")
+
+
+def _problem(function: Function, inputs: Inputs, rows: Numbers) -> str:
+    """What the judge says of these answers; the first comes once more at the end."""
+    line = " ".join(repr(float(np.float32(number))) for number in np.vstack([rows, rows[:1]]).ravel())
+    answer = function.answer.parse(line)
+    return function.answer.problem(inputs, answer, answer)
+
+
+def _inputs(name: str, group: str, seed: int = 1) -> Inputs:
+    return _FUNCTIONS[name].by_name[group].make(RandomSource(f"{name}/{group}/{seed}"))
+
+
+def _disk(radius: Numbers, turn: Numbers) -> Numbers:
+    return np.stack([radius * np.cos(2 * math.pi * turn), radius * np.sin(2 * math.pi * turn)], axis=1)
+
+
+_Mapping = Callable[[Numbers, Numbers], Numbers]
+_DISKS: dict[str, tuple[_Mapping, str]] = {
+    "polar": (lambda x, y: _disk(np.sqrt(x), y), ""),
+    "the other number first": (lambda x, y: _disk(np.sqrt(1 - y), x + 0.25), ""),
+    "plain radius": (lambda x, y: _disk(x, y), "too many points lie near the middle"),
+    "cube root": (lambda x, y: _disk(np.cbrt(x), y), "too many points lie near the rim"),
+    "half a turn": (lambda x, y: _disk(np.sqrt(x), y / 2), "some sides get more points than others"),
+    "a spiral": (lambda x, _: _disk(np.sqrt(x), x), "the two random numbers have to do with each other"),
+    "a square": (lambda x, y: np.stack([2 * x - 1, 2 * y - 1], axis=1), "a point lies outside of the disk"),
+    "no number": (lambda x, y: np.stack([x / 0, y], axis=1), "a point is infinite or NaN"),
+}
+
+
+@pytest.mark.parametrize("name", _DISKS)
+@pytest.mark.filterwarnings("ignore:divide by zero")
+def test_points_of_a_disk_are_told_by_where_they_crowd(name: str) -> None:
+    mapping, said = _DISKS[name]
+    numbers = np.random.default_rng(12).random((2, 2048))
+    assert _problem(_FUNCTIONS["unit_disk"], _inputs("unit_disk", "many points"), mapping(*numbers)) == said
+
+
+def test_right_points_pass_whatever_the_numbers() -> None:
+    draw = np.random.default_rng(7)
+    inputs = _inputs("unit_disk", "many points")
+    for _ in range(300):
+        x, y = draw.random((2, 2048))
+        assert not _problem(_FUNCTIONS["unit_disk"], inputs, _disk(np.sqrt(x), y))
+
+
+def test_the_same_u_gives_the_same_answer() -> None:
+    inputs = _inputs("unit_disk", "corners of the square")
+    line = " ".join(["0.1 0.2"] * 16 + ["0.2 0.1"])
+    answer = _FUNCTIONS["unit_disk"].answer.parse(line)
+    assert _FUNCTIONS["unit_disk"].answer.problem(inputs, answer, answer) == "the same u gave another answer"
+
+
+def _triangle_samples(inputs: Inputs, u: Numbers, **wrong: float) -> Numbers:
+    a, b, c, eye = (np.array(inputs[name].numbers()) for name in ("a", "b", "c", "from"))
+    root = np.sqrt(u[:, :1])
+    positions = (1 - root) * a + root * (1 - u[:, 1:]) * b + root * u[:, 1:] * c
+    across = np.cross(b - a, c - a)
+    normal = across / np.linalg.norm(across) * wrong.get("turned", 1.0)
+    back = eye - positions
+    distances = np.linalg.norm(back, axis=1)
+    cosines = back @ (across / np.linalg.norm(across)) / distances
+    pdf = wrong.get("factor", 1.0) * distances ** wrong.get("power", 2.0) * 2 / np.linalg.norm(across) / cosines
+    return np.hstack([positions, np.tile(normal, (len(u), 1)), np.maximum(pdf, 0)[:, None]])
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({}, ""),
+        ({"turned": -1.0}, "a normal points to the dark side"),
+        ({"factor": 0.5}, "pdf is too small, by the same factor for all points"),
+        ({"factor": 0.0}, "pdf is 0 where light is seen"),
+        ({"power": 1.0}, "pdf is too small, and not by the same factor for all points"),
+    ],
+)
+def test_densities_are_told_by_how_they_are_wrong(wrong: dict[str, float], said: str) -> None:
+    inputs = _inputs("sample_triangle", "a few samples")
+    u = np.random.default_rng(3).random((8, 2))
+    function = _FUNCTIONS["sample_triangle"]
+    assert _problem(function, inputs, _triangle_samples(inputs, u, **wrong)) == said
+
+
+def test_one_point_for_all_is_no_sample() -> None:
+    inputs = _inputs("sample_triangle", "a few samples")
+    rows = _triangle_samples(inputs, np.full((8, 2), 0.5))
+    assert _problem(_FUNCTIONS["sample_triangle"], inputs, rows) == "different u give the same point"
+
+
+def test_a_wrong_density_leaves_right_points_a_part_of_their_credit() -> None:
+    inputs = _inputs("sample_triangle", "a few samples")
+    rows = _triangle_samples(inputs, np.random.default_rng(3).random((8, 2)), factor=0.5)
+    answer = _FUNCTIONS["sample_triangle"].answer
+    found = answer.parse(" ".join(repr(float(n)) for n in np.vstack([rows, rows[:1]]).ravel()))
+    assert answer.credit(inputs, found, found) == pytest.approx(2 / 3)
+    moved = answer.parse(" ".join(repr(float(n)) for n in (np.vstack([rows, rows[:1]]) + 9.0).ravel()))
+    assert answer.credit(inputs, moved, moved) == 0
