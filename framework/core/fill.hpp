@@ -23,7 +23,8 @@ struct Fill {
     float index_of_refraction = 1.0F;  ///< relative to the vacuum outside
     Color emission{0.0F};              ///< light that its front side sends out: radiance
     Scattering scattering = Scattering::diffuse;
-    float roughness = 0.0F;  ///< alpha of GGX, from 0 to 1; of metal and glass
+    float roughness = 0.0F;   ///< alpha of GGX, from 0 to 1; of metal and glass
+    std::uint32_t light = 0;  ///< the framework's own: which of the scene's area lights it is, from 1; 0 for none
 };
 
 }  // namespace raysteps

@@ -466,6 +466,7 @@ private:
     [[nodiscard]] Fill fill() const {
         Fill found = state_.material.fill;
         found.emission = state_.emission;
+        found.light = shines() ? static_cast<std::uint32_t>(scene_.area_lights.size()) : 0;  // the last one
         return found;
     }
 

@@ -54,6 +54,14 @@ struct Parameter<PathTracer&> {
     static PathTracer& give(const Received& received) { return *received.tracer; }
 };
 
+template <>
+struct Parameter<MisTracer&> {
+    using Received = ReceivedMisTracer;
+    static auto send(Writer& out, MisTracer& tracer) { return write_mis_tracer(out, tracer); }
+    static Received receive(Reader& in) { return read_mis_tracer(in); }
+    static MisTracer& give(const Received& received) { return *received.tracer; }
+};
+
 template <typename T>
 struct Parameter<std::span<const T>> {
     using Received = std::vector<T>;

@@ -12,6 +12,7 @@ struct Lent {
     const SceneQuery* query = nullptr;
     Tracer* tracer = nullptr;
     PathTracer* path_tracer = nullptr;
+    MisTracer* mis_tracer = nullptr;
     Uses uses;
 };
 
@@ -40,6 +41,14 @@ PathTracer& lent_path_tracer(LentId id) {
     PathTracer* tracer = lent(id).path_tracer;
     if (tracer == nullptr) {
         throw BadMessage("a scene was asked what only the tracer of paths knows");
+    }
+    return *tracer;
+}
+
+MisTracer& lent_mis_tracer(LentId id) {
+    MisTracer* tracer = lent(id).mis_tracer;
+    if (tracer == nullptr) {
+        throw BadMessage("a scene was asked what only the tracer of step 15 knows");
     }
     return *tracer;
 }
@@ -88,7 +97,8 @@ private:
     Color background_;
 };
 
-class FarPathTracer final : public PathTracer {
+/// Of step 13, or of step 15: the other end knows which.
+class FarPathTracer final : public MisTracer {
 public:
     FarPathTracer(LentId id, const Color& background) : scene_(id), background_(background) {}
 
@@ -103,6 +113,12 @@ public:
     }
     [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& hit) override {
         return ask<std::optional<ScatterSample>, LentId, HitRecord>(FunctionId::lent_scatter, id(), hit);
+    }
+    [[nodiscard]] std::vector<DirectSample> direct_samples(const HitRecord& hit) override {
+        return ask<std::vector<DirectSample>, LentId, HitRecord>(FunctionId::lent_direct_samples, id(), hit);
+    }
+    [[nodiscard]] float light_pdf(const glm::vec3& from, const HitRecord& hit) const override {
+        return ask<float, LentId, glm::vec3, HitRecord>(FunctionId::lent_light_pdf, id(), from, hit);
     }
     [[nodiscard]] Color background() const override { return background_; }
     [[nodiscard]] LentId id() const { return scene_.id(); }
@@ -148,6 +164,14 @@ std::optional<ScatterSample> scatter_of(LentId id, const HitRecord& hit) {
     const Use use(lent(id).uses);
     return lent_path_tracer(id).scatter(hit);
 }
+std::vector<DirectSample> direct_samples_of(LentId id, const HitRecord& hit) {
+    const Use use(lent(id).uses);
+    return lent_mis_tracer(id).direct_samples(hit);
+}
+float light_pdf_of(LentId id, const glm::vec3& from, const HitRecord& hit) {
+    const Use use(lent(id).uses);
+    return lent_mis_tracer(id).light_pdf(from, hit);
+}
 std::optional<HitRecord> hit_of(GroupId group, std::uint32_t index, const Ray& ray) {
     const Use use = Groups::all().use(group);
     return Groups::all().lent({group, index}).hit(ray);
@@ -163,6 +187,8 @@ bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
                                       offer_function<&trace_of>(FunctionId::lent_trace) &&
                                       offer_function<&light_sample_of>(FunctionId::lent_light_sample) &&
                                       offer_function<&scatter_of>(FunctionId::lent_scatter) &&
+                                      offer_function<&direct_samples_of>(FunctionId::lent_direct_samples) &&
+                                      offer_function<&light_pdf_of>(FunctionId::lent_light_pdf) &&
                                       offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
                                       offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
 
@@ -191,10 +217,11 @@ std::vector<PlaceInGroup> places_of(const SurfaceList& surfaces) {
 
 }  // namespace
 
-QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer, PathTracer* path_tracer) {
+QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer, PathTracer* path_tracer, MisTracer* mis_tracer) {
     static LentId last = 0;
     id_ = ++last;
-    lent_queries()[id_] = {.query = &query, .tracer = tracer, .path_tracer = path_tracer, .uses = {}};
+    lent_queries()[id_] = {
+        .query = &query, .tracer = tracer, .path_tracer = path_tracer, .mis_tracer = mis_tracer, .uses = {}};
 }
 
 QueryLoan::~QueryLoan() {
@@ -221,13 +248,21 @@ std::unique_ptr<QueryLoan> write_tracer(Writer& out, Tracer& tracer) {
     return loan;
 }
 
-std::unique_ptr<QueryLoan> write_path_tracer(Writer& out, PathTracer& tracer) {
+static std::unique_ptr<QueryLoan> write_paths(Writer& out, PathTracer& tracer, MisTracer* mis_tracer) {
     const std::optional<LentId> known = id_of_other_end(tracer);
-    auto loan = known ? nullptr : std::make_unique<QueryLoan>(tracer, nullptr, &tracer);
+    auto loan = known ? nullptr : std::make_unique<QueryLoan>(tracer, nullptr, &tracer, mis_tracer);
     out.put(known.has_value());
     out.put(known ? *known : loan->id());
     write(out, tracer.background());
     return loan;
+}
+
+std::unique_ptr<QueryLoan> write_path_tracer(Writer& out, PathTracer& tracer) {
+    return write_paths(out, tracer, nullptr);
+}
+
+std::unique_ptr<QueryLoan> write_mis_tracer(Writer& out, MisTracer& tracer) {
+    return write_paths(out, tracer, &tracer);
 }
 
 ReceivedQuery read_query(Reader& in) {
@@ -254,17 +289,22 @@ ReceivedTracer read_tracer(Reader& in) {
     return {std::move(stand_in), tracer, std::nullopt};
 }
 
-ReceivedPathTracer read_path_tracer(Reader& in) {
+template <typename Received>
+static Received read_paths(Reader& in, auto& (*lent_one)(LentId)) {
     const bool own = in.get<bool>();
     const auto id = in.get<LentId>();
     const auto background = read<Color>(in);
     if (own) {
-        return {nullptr, &lent_path_tracer(id), Use(lent(id).uses)};
+        return {nullptr, &lent_one(id), Use(lent(id).uses)};
     }
     auto stand_in = std::make_unique<FarPathTracer>(id, background);
-    PathTracer* tracer = stand_in.get();
+    FarPathTracer* tracer = stand_in.get();
     return {std::move(stand_in), tracer, std::nullopt};
 }
+
+ReceivedPathTracer read_path_tracer(Reader& in) { return read_paths<ReceivedPathTracer>(in, lent_path_tracer); }
+
+ReceivedMisTracer read_mis_tracer(Reader& in) { return read_paths<ReceivedMisTracer>(in, lent_mis_tracer); }
 
 Loan write_surfaces(Writer& out, const SurfaceList& surfaces) {
     const std::vector<PlaceInGroup> places = places_of(surfaces);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/path_tracer.hpp"
+#include "core/mis_tracer.hpp"
 #include "core/tracer.hpp"
 #include "remote/groups.hpp"
 #include "remote/message.hpp"
@@ -15,10 +15,11 @@ namespace raysteps::remote {
 
 using LentId = std::uint32_t;
 
-/// While it exists, the other end may ask this scene, which may be a Tracer or a PathTracer, too.
+/// While it exists, the other end may ask this scene, which may be a Tracer, a PathTracer or a MisTracer, too.
 class QueryLoan {
 public:
-    explicit QueryLoan(const SceneQuery& query, Tracer* tracer = nullptr, PathTracer* path_tracer = nullptr);
+    explicit QueryLoan(const SceneQuery& query, Tracer* tracer = nullptr, PathTracer* path_tracer = nullptr,
+                       MisTracer* mis_tracer = nullptr);
     QueryLoan(const QueryLoan&) = delete;
     QueryLoan& operator=(const QueryLoan&) = delete;
     ~QueryLoan();
@@ -33,6 +34,7 @@ private:
 [[nodiscard]] std::unique_ptr<QueryLoan> write_query(Writer& out, const SceneQuery& query);
 [[nodiscard]] std::unique_ptr<QueryLoan> write_tracer(Writer& out, Tracer& tracer);
 [[nodiscard]] std::unique_ptr<QueryLoan> write_path_tracer(Writer& out, PathTracer& tracer);
+[[nodiscard]] std::unique_ptr<QueryLoan> write_mis_tracer(Writer& out, MisTracer& tracer);
 
 /// A scene as it came with a question: a stand-in, or an own one that came back.
 struct ReceivedQuery {
@@ -50,9 +52,15 @@ struct ReceivedPathTracer {
     PathTracer* tracer = nullptr;
     std::optional<Use> use;
 };
+struct ReceivedMisTracer {
+    std::unique_ptr<MisTracer> stand_in;
+    MisTracer* tracer = nullptr;
+    std::optional<Use> use;
+};
 [[nodiscard]] ReceivedQuery read_query(Reader& in);
 [[nodiscard]] ReceivedTracer read_tracer(Reader& in);
 [[nodiscard]] ReceivedPathTracer read_path_tracer(Reader& in);
+[[nodiscard]] ReceivedMisTracer read_mis_tracer(Reader& in);
 
 /// Surfaces as they came with a question: copies, or own ones that the other end has copies of.
 struct ReceivedSurfaces {

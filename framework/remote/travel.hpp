@@ -13,6 +13,7 @@
 #include "core/light.hpp"
 #include "core/light_sample.hpp"
 #include "core/mesh_face.hpp"
+#include "core/mis_tracer.hpp"
 #include "core/pixel_sample.hpp"
 #include "core/random_stream.hpp"
 #include "core/scatter.hpp"
@@ -60,7 +61,7 @@ struct Travel<glm::vec3> : Packed<glm::vec3, 3 * sizeof(float)> {};
 template <>
 struct Travel<Ray> : Packed<Ray, 6 * sizeof(float)> {};
 template <>
-struct Travel<Fill> : Packed<Fill, 13 * sizeof(float)> {};
+struct Travel<Fill> : Packed<Fill, 14 * sizeof(float)> {};
 template <>
 struct Travel<Box> : Packed<Box, 6 * sizeof(float)> {};
 template <>
@@ -88,6 +89,8 @@ constexpr auto fields(auto& record) {
         return std::tie(record.offset, record.light);
     } else if constexpr (std::is_same_v<Record, ScatterSample>) {
         return std::tie(record.direction, record.weight, record.pdf, record.specular);
+    } else if constexpr (std::is_same_v<Record, DirectSample>) {
+        return std::tie(record.light, record.pdf, record.scatter_pdf);
     } else if constexpr (std::is_same_v<Record, MeshCorner>) {
         return std::tie(record.position, record.normal, record.uv);
     } else if constexpr (std::is_same_v<Record, Texture>) {

@@ -56,12 +56,15 @@ Color DirectLight::at(const HitRecord& hit, RayNumber ray) {
     return is_metal(hit) ? shade_metal(hit, lit_) : shade(hit, lit_);
 }
 
+LightSample DirectLight::sample_of(std::size_t light, const HitRecord& hit, const glm::vec2& u) const {
+    return sample_light(scene_.area_lights[light].shape, hit.position, u);
+}
+
 // The shadow ray ends a little off the lamp, which would stand in its own way by rounding.
-Color DirectLight::of_area_light(std::size_t light, const HitRecord& hit, RayNumber ray, const glm::vec2& u) {
-    const AreaLight& lamp = scene_.area_lights[light];
-    const LightSample sample = sample_light(lamp.shape, hit.position, u);
-    const Color color = is_metal(hit) ? sampled_metal_light(hit, lamp.radiance, sample)
-                                      : sampled_light(hit, lamp.radiance, sample);
+Color DirectLight::of_area_light(std::size_t light, const HitRecord& hit, RayNumber ray, const LightSample& sample) {
+    const Color& radiance = scene_.area_lights[light].radiance;
+    const Color color =
+        is_metal(hit) ? sampled_metal_light(hit, radiance, sample) : sampled_light(hit, radiance, sample);
     if (!(std::max({color.r, color.g, color.b}) > 0.0F)) {
         return k_black;
     }

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "core/light_sample.hpp"
 #include "core/scene.hpp"
 #include "render/ray_counter.hpp"
 
@@ -18,8 +19,12 @@ public:
     /// At the hit of that ray.
     [[nodiscard]] Color at(const HitRecord& hit, RayNumber ray);
 
-    /// What one sample of one of the scene's area lights brings there: step 12's, if step 04 lets it through.
-    [[nodiscard]] Color of_area_light(std::size_t light, const HitRecord& hit, RayNumber ray, const glm::vec2& u);
+    /// Step 12's sample of one of the scene's area lights, for that hit.
+    [[nodiscard]] LightSample sample_of(std::size_t light, const HitRecord& hit, const glm::vec2& u) const;
+
+    /// What this sample of it brings there, if step 04 lets it through.
+    [[nodiscard]] Color of_area_light(std::size_t light, const HitRecord& hit, RayNumber ray,
+                                      const LightSample& sample);
 
 private:
     [[nodiscard]] bool is_metal(const HitRecord& hit) const;

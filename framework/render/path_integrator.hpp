@@ -7,9 +7,9 @@ namespace raysteps {
 
 class PathIntegrator final : public Integrator {
 public:
-    /// Before step 14 all surfaces are diffuse.
+    /// Before step 14 all surfaces are diffuse, and before 15 lamps are sampled only.
     PathIntegrator(const Scene& scene, RayCounter& rays, int step)
-        : Integrator(scene, rays), direct_(scene, rays, step >= 14), has_materials_(step >= 14) {}
+        : Integrator(scene, rays), direct_(scene, rays, step >= 14), step_(step) {}
 
 private:
     class Path;
@@ -17,7 +17,7 @@ private:
     [[nodiscard]] Color color_of(const Ray& ray) override;
 
     DirectLight direct_;
-    bool has_materials_;
+    int step_;
 };
 
 }  // namespace raysteps

@@ -95,7 +95,8 @@ Color WhittedIntegrator::follow(const RayOrigin& origin, const Ray& ray) {
 Color WhittedIntegrator::area_lighting(const HitRecord& hit, RayNumber ray) {
     Color color = hit.front_face ? hit.fill.emission : k_black;
     for (std::size_t light = 0; light < scene().area_lights.size(); ++light) {
-        color += direct_.of_area_light(light, hit, ray, next_stream().next_2d());
+        const LightSample sample = direct_.sample_of(light, hit, next_stream().next_2d());
+        color += direct_.of_area_light(light, hit, ray, sample);
     }
     return color;
 }
