@@ -18,6 +18,7 @@ FunctionTable all_functions() {
     add_soft_light(functions);
     add_paths(functions);
     add_materials(functions);
+    add_mis(functions);
     return functions;
 }
 

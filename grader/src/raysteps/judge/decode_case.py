@@ -30,7 +30,19 @@ from raysteps.judge.protocol import (
     f32,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.scripted_tracer import PathHit, PathScript, Scatter, Script, ScriptedHit
+from raysteps.judge.scripted_tracer import (
+    DirectSample,
+    DirectSamples,
+    MisHit,
+    MisScript,
+    PathHit,
+    PathScript,
+    PlateLamp,
+    Scatter,
+    Script,
+    ScriptedHit,
+    WeighedScatter,
+)
 from raysteps.judge.searches import Rays, Reach, Reaches, WhoseBvh, WhoseTree
 from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
 
@@ -123,6 +135,21 @@ def _path_hit(n: _Numbers) -> PathHit:
     return PathHit(distance, normal, emission, n.vector(), _scatter(n) if n.flag() else None, front_face)
 
 
+def _direct_samples(n: _Numbers) -> DirectSamples:
+    return DirectSamples(n.many(lambda m: DirectSample(m.vector(), m.real(), m.real())))
+
+
+def _weighed(n: _Numbers) -> WeighedScatter:
+    return WeighedScatter(_scatter(n), n.real())
+
+
+def _mis_hit(n: _Numbers) -> MisHit:
+    distance, normal, emission, front_face, light_pdf = n.real(), n.vector(), n.vector(), n.flag(), n.real()
+    samples, scatter = _direct_samples(n), _weighed(n) if n.flag() else None
+    exponent, lamps = n.real(), n.many(lambda m: PlateLamp(m.real(), m.real(), m.vector()))
+    return MisHit(distance, normal, emission, front_face, light_pdf, samples, scatter, exponent, lamps)
+
+
 _READERS: dict[type, Callable[[_Numbers], Any]] = {
     Real: lambda n: Real(n.real()),
     Whole: lambda n: Whole(n.whole()),
@@ -145,6 +172,9 @@ _READERS: dict[type, Callable[[_Numbers], Any]] = {
     Surfaces: lambda n: Surfaces(n.many(_surface)),
     Script: lambda n: Script(n.whole(), n.vector(), n.many(_scripted_hit)),
     PathScript: lambda n: PathScript(n.vector(), n.flag(), n.many(_path_hit)),
+    DirectSamples: _direct_samples,
+    WeighedScatter: _weighed,
+    MisScript: lambda n: MisScript(n.vector(), n.flag(), n.many(_mis_hit)),
     WhoseTree: lambda n: WhoseTree(n.flag()),
     WhoseBvh: lambda n: WhoseBvh(n.flag()),
     Rays: lambda n: Rays(n.many(_ray)),

@@ -98,6 +98,7 @@ _MODULES = {
     "12": "soft_light",
     "13": "path_tracing",
     "14": "materials",
+    "15": "mis",
 }
 
 

@@ -20,7 +20,7 @@ from raysteps.judge.choice_sequence import (
 )
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.protocol import Inputs, Lights, PixelSamples, Real, Value, f32
-from raysteps.judge.scripted_tracer import Script, ScriptedHit
+from raysteps.judge.scripted_tracer import DirectSamples, Script, ScriptedHit
 from raysteps.judge.searches import Rays, Reaches
 from raysteps.judge.surfaces import Surfaces
 
@@ -32,6 +32,7 @@ _ITEMS = {
     Surfaces: "surfaces",
     Lights: "lights",
     PixelSamples: "samples",
+    DirectSamples: "samples",
     Rays: "rays",
     Reaches: "rays",
     Script: "hits",

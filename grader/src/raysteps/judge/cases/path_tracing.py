@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -37,7 +38,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
-from raysteps.judge.scripted_tracer import MOST_ASKED, PathHit, PathScript, Scatter
+from raysteps.judge.scripted_tracer import MOST_ASKED, MisScript, PathHit, PathScript, Scatter
 from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform
 
 # Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
@@ -358,10 +359,10 @@ def _words_of_light(light: _Light) -> str:
     return f"light {vector_words(light.color)}; rays cast: {cast}"
 
 
-def _script(inputs: Inputs) -> PathScript:
+def _distances(inputs: Inputs) -> list[float]:
     script = inputs["tracer"]
-    assert isinstance(script, PathScript)
-    return script
+    assert isinstance(script, PathScript | MisScript)
+    return [hit.distance for hit in script.hits]
 
 
 def mean_light(script: PathScript) -> Vector:
@@ -391,8 +392,8 @@ def _is_astray(inputs: Inputs, expected: Sequence[Ray], actual: Sequence[Ray]) -
     )
     if not same or not length(minus(expected[0].origin, actual[0].origin)) <= 1e-3:
         return True
-    for before, after, hit in zip(actual, actual[1:], _script(inputs).hits, strict=False):
-        position = add(before.origin, before.direction, hit.distance)
+    for before, after, distance in zip(actual, actual[1:], _distances(inputs), strict=False):
+        position = add(before.origin, before.direction, distance)
         if not _ON_THE_HIT <= length(minus(after.origin, position)) <= _AT_THE_HIT:
             return True
     return False
@@ -402,7 +403,7 @@ _SPREAD = 1.5  # standard deviation of a path's questions, as a share of their m
 _SLACK = 0.01
 
 
-def _length_problem(expected: Estimates, actual: Estimates) -> str:
+def length_problem(expected: Estimates, actual: Estimates) -> str:
     """Roulette says how many rays a path has on average. Who ends it by other rules asks more or less."""
     share = actual.cost / actual.count / (expected.cost / expected.count)
     most = _SLACK + DEVIATIONS * _SPREAD * math.sqrt(1 / actual.count + 1 / expected.count)
@@ -411,14 +412,14 @@ def _length_problem(expected: Estimates, actual: Estimates) -> str:
     return f"paths {'go on for too long' if share > 1 else 'end too soon'}"
 
 
-def _light_problem(inputs: Inputs, expected: _Light, actual: _Light) -> str:
+ManyProblem = Callable[[Inputs, Estimates, Estimates], str]
+
+
+def _light_problem(of_many: ManyProblem, inputs: Inputs, expected: _Light, actual: _Light) -> str:
     if (expected.many is None) != (actual.many is None):
         return "no proper answer came"
     if expected.many is not None and actual.many is not None:
-        return first(
-            _length_problem(expected.many, actual.many),
-            estimates_problem("the light", mean_light(_script(inputs)), expected.many, actual.many),
-        )
+        return of_many(inputs, expected.many, actual.many)
     counts = ""
     if len(actual.cast) != len(expected.cast):
         counts = f"too {'many' if len(actual.cast) > len(expected.cast) else 'few'} rays were cast"
@@ -437,13 +438,32 @@ def _light_credit(inputs: Inputs, expected: _Light, actual: _Light) -> float:
     return 0.0 if _is_astray(inputs, expected.cast, actual.cast) else 0.25
 
 
-def _once(draw: RandomSource, script: PathScript) -> Inputs:
+def path_answer(of_many: ManyProblem) -> Answer[_Light]:
+    """Of a function that follows paths, one or many."""
+    return Answer(
+        _read_light,
+        _words_of_light,
+        partial(_light_problem, of_many),
+        _light_credit,
+        near=lambda light: itself(light.color),
+    )
+
+
+def _many_problem(inputs: Inputs, expected: Estimates, actual: Estimates) -> str:
+    script = inputs["tracer"]
+    assert isinstance(script, PathScript)
+    return first(length_problem(expected, actual), estimates_problem("the light", mean_light(script), expected, actual))
+
+
+def once(draw: RandomSource, script: PathScript | MisScript) -> Inputs:
+    """One path."""
     ray = Ray(draw.point(3), draw.direction())
     seed = Whole(draw.whole(1, 1_000_000_000))
     return {"ray": ray, "tracer": script, "seed": seed, "precision": Real(0.0), "most": Whole(0)}
 
 
-def _often(draw: RandomSource, script: PathScript, bias: float) -> Inputs:
+def often(draw: RandomSource, script: PathScript | MisScript, bias: float) -> Inputs:
+    """As many paths as it takes to find a bias of that share."""
     return {"ray": Ray(draw.point(3), draw.direction()), "tracer": script, **plan(draw, bias)}
 
 
@@ -478,14 +498,14 @@ def _plain(draw: RandomSource) -> Inputs:
     kinds = ["e" if draw.chance(0.3) else "" for _ in range(size)]
     if size == 4 or draw.chance(0.5):
         kinds[-1] += "x"
-    return _once(draw, PathScript(draw.color(0.1, 0.8), goes_on=False, hits=_hits(draw, kinds)))
+    return once(draw, PathScript(draw.color(0.1, 0.8), goes_on=False, hits=_hits(draw, kinds)))
 
 
 def _of_kinds(*choices: tuple[str, ...], background: bool = False) -> Callable[[RandomSource], Inputs]:
     def make(draw: RandomSource) -> Inputs:
         kinds = choices[draw.whole(0, len(choices) - 1)]
         sky = draw.color(0.1, 0.9) if background else _BLACK
-        return _once(draw, PathScript(sky, goes_on=False, hits=_hits(draw, kinds)))
+        return once(draw, PathScript(sky, goes_on=False, hits=_hits(draw, kinds)))
 
     return make
 
@@ -541,12 +561,12 @@ def _bright(draw: RandomSource) -> Inputs:
     number = draw.whole(0, 2)
     old = hits[number]
     hits[number] = PathHit(old.distance, old.normal, _BLACK, draw.color(50, 2000), old.scatter)
-    return _once(draw, PathScript(_BLACK, goes_on=False, hits=tuple(hits)))
+    return once(draw, PathScript(_BLACK, goes_on=False, hits=tuple(hits)))
 
 
 _PATH_LIGHT = Function(
     "path_light",
-    Answer(_read_light, _words_of_light, _light_problem, _light_credit, near=lambda light: itself(light.color)),
+    path_answer(_many_problem),
     (
         Group("up to four hits", _plain),
         Group("a lamp that is seen", _of_kinds(("ex",), ("e", "x"), ("e", "", "x"))),
@@ -555,11 +575,11 @@ _PATH_LIGHT = Function(
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "e", "x"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", ""), ("", "s", ""), background=True)),
         Group("a very bright lamp", _bright),
-        Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.03)),
-        Group("bright walls", lambda d: _often(d, _furnace(d, 0.75, 0.8), 0.06)),
-        Group("light found late", lambda d: _often(d, _late(d), 0.2)),
-        Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.08)),
-        Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.08)),
+        Group("a furnace", lambda d: often(d, _furnace(d, 0.5, 0.6), 0.03)),
+        Group("bright walls", lambda d: often(d, _furnace(d, 0.75, 0.8), 0.06)),
+        Group("light found late", lambda d: often(d, _late(d), 0.2)),
+        Group("coloured walls", lambda d: often(d, _colored_walls(d), 0.08)),
+        Group("a hall of mirrors", lambda d: often(d, _hall_of_mirrors(d), 0.08)),
     ),
 )
 
