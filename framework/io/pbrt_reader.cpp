@@ -398,10 +398,11 @@ private:
         return index;
     }
 
-    // By default pbrt's roughness is the square of GGX's.
+    // By default pbrt's roughness is the square of GGX's. What is nearly smooth is smooth, as there.
     static float roughness_of(const PbrtScanner& scanner, const PbrtParameters& parameters) {
         const float roughness = share(scanner, parameters, "roughness", 0.0F);
-        return parameters.string("remaproughness") != "false" ? std::sqrt(roughness) : roughness;
+        const float alpha = parameters.string("remaproughness") != "false" ? std::sqrt(roughness) : roughness;
+        return alpha < 1e-3F ? 0.0F : alpha;
     }
 
     static float share(const PbrtScanner& scanner, const PbrtParameters& parameters, std::string_view name,

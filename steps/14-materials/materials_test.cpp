@@ -87,7 +87,7 @@ TEST_CASE("from inside the same share comes back as from outside, at the refract
 
 TEST_CASE("where refraction is impossible all light comes back", "[fresnel_dielectric]") {
     for (const float cosine : {0.0F, 0.3F, 0.7F}) {
-        CHECK(fresnel_dielectric(cosine, 1.5F) == 1.0F);
+        CHECK(fresnel_dielectric(cosine, 1.5F) == about(1.0F));
     }
     CHECK(fresnel_dielectric(0.75F, 1.5F) < 1.0F);
 }
@@ -236,18 +236,52 @@ TEST_CASE("what a path does at rough metal is f cos / pdf", "[scatter_metal]") {
     }
 }
 
+TEST_CASE("nearly smooth metal is a mirror", "[scatter_metal]") {
+    const HitRecord hit = rough_hit(0.6F, 0.001F);
+    const ScatterSample mirror = scatter_mirror(hit);
+    int close = 0;
+    many_times(100, [&](RandomStream& random) {
+        const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
+        if (sample && glm::dot(sample->direction, mirror.direction) > 0.999F) {
+            ++close;
+            REQUIRE_THAT(sample->weight, IsNear(mirror.weight, 0.02F));
+        }
+    });
+    CHECK(close > 90);
+}
+
+TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back", "[scatter_metal]") {
+    INFO("metal that mirrors all, below a sky of 1: the rest would have met a second microfacet");
+    HitRecord hit = rough_hit(1.0F, 1.0F);
+    hit.fill.color = k_white;
+    constexpr int k_count = 40000;
+    float sum = 0.0F;
+    many_times(k_count, [&](RandomStream& random) {
+        const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
+        if (sample) {
+            REQUIRE(sample->weight.x <= 1.0001F);
+            sum += sample->weight.x;
+        }
+    });
+    CHECK(std::abs(sum / static_cast<float>(k_count) - (1.0F - std::log(2.0F))) < 0.011F);
+}
+
 TEST_CASE("the normal of the surface may point anywhere", "[scatter_metal][scatter_glass]") {
     for (const glm::vec3& normal : {glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(0.48F, -0.64F, 0.6F)}) {
         HitRecord hit = hit_of(normal, normal);
         hit.fill.roughness = 0.02F;
-        many_times(50, [&](RandomStream& random) {
+        int mirrored = 0;
+        int along = 0;
+        many_times(100, [&](RandomStream& random) {
             const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
-            REQUIRE(sample);
-            CHECK(glm::dot(sample->direction, normal) > 0.5F);
+            mirrored += sample && glm::dot(sample->direction, normal) > 0.5F ? 1 : 0;
             const std::optional<ScatterSample> through = scatter_glass(hit, random);
-            REQUIRE(through);
-            CHECK(std::abs(glm::dot(through->direction, normal)) > 0.5F);
+            along += through && std::abs(glm::dot(through->direction, normal)) > 0.5F ? 1 : 0;
         });
+        CAPTURE(normal);
+        INFO("of 100 that come straight down all but a few go on nearly straight");
+        CHECK(mirrored > 90);
+        CHECK(along > 90);
     }
 }
 
