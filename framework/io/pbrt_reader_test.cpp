@@ -173,6 +173,12 @@ TEST_CASE("area lights last as long as their attributes, and shine to the front"
     CHECK_THAT(disk.normal, IsNear({0.0F, -1.0F, 0.0F}));
     CHECK(disk.radius == about(0.5));
     CHECK(std::get<SphereLight>(scene.area_lights[1].shape).radius == about(0.25));
+    INFO("what shines knows its light, and what does not has none");
+    std::vector<std::uint32_t> lights;
+    for (const Surface* surface : scene.surfaces()) {
+        lights.push_back(surface->fill().light);
+    }
+    CHECK(lights == std::vector<std::uint32_t>{1, 2, 0});
     REQUIRE(scene.surfaces().size() == 3);
     CHECK_THAT(scene.surfaces()[0]->fill().emission, IsNear({2.0F, 4.0F, 6.0F}));
     CHECK(scene.surfaces()[2]->fill().emission == k_black);

@@ -36,9 +36,9 @@ FakeScene bowl(float albedo) {
 }
 
 /// The mean light of many paths along the ray.
-Color mean_light(const SceneQuery& query, const Scene& scene, const Ray& ray, int paths) {
+Color mean_light(const SceneQuery& query, const Scene& scene, const Ray& ray, int paths, int step = 13) {
     RayCounter rays(query);
-    const auto integrator = make_integrator(scene, rays, {.step = 13});
+    const auto integrator = make_integrator(scene, rays, {.step = step});
     Color sum(0.0F);
     for (int number = 0; number < paths; ++number) {
         sum += integrator->primary_color(ray, {.pixel = 13, .index = static_cast<std::uint32_t>(number)});
@@ -83,6 +83,7 @@ TEST_CASE("Paths: a lamp is seen, and lights what is below it by its samples", "
         if (to_lamp > 0.0F && glm::length(place - above) < radius) {
             HitRecord hit = hit_of(ray, to_lamp, above, 0.0F);
             hit.fill.emission = Color(4.0F);
+            hit.fill.light = 1;
             hit.front_face = ray.direction.y > 0.0F;
             return hit;
         }
@@ -93,5 +94,32 @@ TEST_CASE("Paths: a lamp is seen, and lights what is below it by its samples", "
     CHECK_THAT(mean_light(floor_and_lamp, scene, up, 4), IsNear(Color(4.0F)));
     INFO("straight below a disk: albedo * radiance * r^2 / (r^2 + h^2), and the black lamp sends nothing back");
     const Ray down{{0.0F, 0.9F, 0.0F}, {0.0F, -1.0F, 0.0F}};
-    CHECK(mean_light(floor_and_lamp, scene, down, 20000).x == about(0.5 * 4.0 * 0.2, 0.01));
+    for (const int step : {13, 15}) {
+        CAPTURE(step);
+        CHECK(mean_light(floor_and_lamp, scene, down, 20000, step).x == about(0.5 * 4.0 * 0.2, 0.01));
+    }
+}
+
+// A ball of metal is small beside the lamp that is mirrored in it: all of the mirrored light comes from the lamp.
+TEST_CASE("Paths: lamps in rough metal are as bright, however they are found", "[render][paths]") {
+    Scene scene;
+    const SphereLight lamp{.center = {0.0F, 4.0F, 0.0F}, .radius = 1.5F};
+    scene.area_lights.push_back({lamp, Color(2.0F)});
+    for (const float roughness : {0.05F, 0.3F}) {
+        CAPTURE(roughness);
+        const FakeScene metal_and_lamp([&](const Ray& ray) -> std::optional<HitRecord> {
+            Fill metal{.color = Color(0.8F)};
+            metal.scattering = Scattering::metal;
+            metal.roughness = roughness;
+            Fill shining{.color = k_black};
+            shining.emission = Color(2.0F);
+            shining.light = 1;
+            const auto plate = Sphere(glm::vec3(0.0F), 0.2F, metal).intersect(ray);
+            return plate ? plate : Sphere(lamp.center, lamp.radius, shining).intersect(ray);
+        });
+        const Ray towards{{1.0F, 3.0F, 0.0F}, glm::normalize(glm::vec3(-0.96F, -2.81F, 0.0F))};
+        const double sampled = static_cast<double>(mean_light(metal_and_lamp, scene, towards, 40000, 14).x);
+        const double both = static_cast<double>(mean_light(metal_and_lamp, scene, towards, 40000, 15).x);
+        CHECK(both == about(sampled, roughness < 0.1F ? 0.06 : 0.02));
+    }
 }

@@ -18,7 +18,7 @@ namespace raysteps {
 /// both (Veach 1997, equation 9.8). 0 where pdf is 0.
 [[nodiscard]] float balance_heuristic(float pdf, float other_pdf);
 
-/// The same with the square of each density (Veach 1997, equation 9.12, exponent 2). Densities up to 1e15: their
+/// The same with the square of each density (Veach 1997, section 9.2.3, exponent 2). Densities up to 1e15: their
 /// squares fit into a float. 0 where pdf is 0.
 [[nodiscard]] float power_heuristic(float pdf, float other_pdf);
 

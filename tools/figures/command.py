@@ -55,6 +55,7 @@ _DIAGRAMS = {
     "12-lens": sampling.lens,
     "12-penumbra": sampling.penumbra,
     "14-visible": sampling.visible,
+    "15-two-ways": sampling.two_ways,
 }
 _CURVES = {
     "03-highlight": plots.highlight,
@@ -62,6 +63,7 @@ _CURVES = {
     "10-errors": sampling.errors,
     "10-filters": sampling.filters,
     "10-screen": sampling.screen,
+    "15-weights": sampling.weights,
 }
 _PLOTS = {
     "04-threshold": plots.acne,
@@ -105,6 +107,7 @@ def figures() -> list[Figure]:
     found = [Figure(file.rpartition(".")[0], f"{FOLDER}/{file}", make) for file, make in makers.items()]
     found.append(Figure("01-before", f"{FOLDER}/01-before.png", renders.untouched))
     found.append(Figure("12-before", f"{FOLDER}/12-before.png", renders.hard_shadows))
+    found.append(Figure("15-paths", f"{FOLDER}/15-paths.png", renders.paths_alone))
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
     found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
     found.append(Figure("window", "docs/pictures/window.png", renders.window))

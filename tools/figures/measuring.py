@@ -75,7 +75,12 @@ class Variant:
 
     def draw(self, scene: str, args: Sequence[str], knobs: Sequence[float] = ()) -> RenderedVariant:
         """One picture; `knobs` are the two numbers that the source asks for with knob(0) and knob(1)."""
-        words: list[Word] = [*self._program.words, Input(self._kit.project.root / scene, "scene.nff"), *args, "--quiet"]
+        words: list[Word] = [
+            *self._program.words,
+            Input(self._kit.project.root / scene, f"scene{Path(scene).suffix}"),
+            *args,
+            "--quiet",
+        ]
         words += ["-o", Output("picture"), "--stats", Output("stats")]
         told = " ".join(str(value) for value in [*knobs, 0, 0][:2]).encode()
         ran = self._air.run(Task(tuple(words), self._limits.of_program(), stdin=told))

@@ -13,6 +13,7 @@ from raysteps.cli.render import build_program
 from raysteps.cli.view import check_glfw
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
+from raysteps.course.mutants import reference_source, replaced_once
 from raysteps.course.project import generated
 from raysteps.course.stubs import stub_for
 from raysteps.images.compare import Pixels, pixels_differ, read_png, read_ppm
@@ -76,6 +77,8 @@ SHOTS = {
     "14-before": Shot("lessons/metals.pbrt", ("--step", "13", "--samples", "256")),
     "14-after": Shot("lessons/metals.pbrt", ("--step", "14", "--samples", "256")),
     "14-glass": Shot("lessons/glass-balls.pbrt", ("--step", "14", "--samples", "256")),
+    "15-before": Shot("lessons/plates.pbrt", ("--step", "14", "--samples", "4")),
+    "15-after": Shot("lessons/plates.pbrt", ("--step", "15", "--samples", "4")),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
 
@@ -104,6 +107,19 @@ def hard_shadows(kit: BuiltKit) -> Pixels:
 
 
 _TINY = 0.01
+
+
+def paths_alone(kit: BuiltKit) -> Pixels:
+    """The scene of step 15 with no samples of lamps: each lamp that a path meets counts in full."""
+    shot, step = SHOTS["15-after"], next(step for step in kit.steps if step.number == "15")
+    changes = {
+        "emission_weight(last, tracer.light_pdf(from, *hit)) * emission": "emission",
+        "        light += weight * direct_light(tracer.direct_samples(*hit));\n": "",
+    }
+    source = reference_source(kit.project, step)
+    for old, new in changes.items():
+        source = replaced_once(source, old, new, f"figures: '{old}' in solutions/{step.path.as_posix()}")
+    return Variant(kit, step, source).draw(f"scenes/{shot.file}", (*shot.args, *_SMALL)).pixels
 
 
 def contact_sheet(kit: BuiltKit) -> Pixels:

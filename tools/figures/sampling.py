@@ -1,4 +1,4 @@
-"""Steps 10 and 12 to 14: where samples lie, in a pixel and on lamps, what they are worth, what a screen is sent, and
+"""Steps 10 and 12 to 15: where samples lie, in a pixel and on lamps, what they are worth, what a screen is sent, and
 where paths go."""
 
 import math
@@ -385,3 +385,57 @@ def visible() -> Drawing:
     figure.text((590, 46), "view", "small t-green")
     figure.text((556, 306), "seen of it: half a disk, and half a disk that is squeezed", "small t-red", "end")
     return figure
+
+
+# Step 15: two ways to a lamp.
+
+
+def _plate_and_lamp(figure: Drawing, left: float, spread: float, lamp: tuple[float, float], aim: float) -> None:
+    """Directions that a plate scatters to, around the mirrored one, and samples all over a lamp."""
+    ground, reach, height = 250.0, 170.0, 66.0
+    middle = (left + 145.0, ground)
+    figure.rect((left + 35, ground), 220, 14, "w-grey")
+    figure.line((left + 35, ground), (left + 255, ground), "ink")
+    for place in (0.04, 0.27, 0.5, 0.73, 0.96):
+        at = (left + lamp[0] + place * (lamp[1] - lamp[0]), height)
+        figure.line(middle, at, "red dash")
+        figure.dot(at, "red", 3)
+    for place in (-1.0, -0.5, 0.0, 0.5, 1.0):
+        figure.arrow(middle, polar(middle, aim + spread * place, reach), "blue")
+    figure.rect((left + lamp[0] - 3, height - 14), lamp[1] - lamp[0] + 6, 12, "w-red")
+    figure.dot(middle)
+
+
+def two_ways() -> Drawing:
+    """Where each of the two finds little."""
+    figure = Drawing(
+        640,
+        306,
+        "Two ways to a lamp",
+        "On the left a polished plate below a large lamp. Dashed lines run to samples all over the lamp; the plate "
+        "scatters to a few directions close together, all of which meet the lamp. Of the samples one lies there. On "
+        "the right a dull plate below a small lamp. It scatters to all sides, and one of its directions comes near "
+        "the lamp; all samples of the lamp lie where it does send light.",
+    )
+    _plate_and_lamp(figure, 8.0, 5.0, (60.0, 280.0), 68.0)
+    _plate_and_lamp(figure, 324.0, 68.0, (196.0, 214.0), 84.0)
+    for left, plate in ((8.0, "polished plate, large lamp"), (324.0, "dull plate, small lamp")):
+        figure.text((left + 145, 288), plate, "small strong", "middle")
+    figure.text((24, 28), "samples of the lamp", "small t-red")
+    figure.text((160, 28), "where paths go on", "small t-blue")
+    return figure
+
+
+def weights() -> str:
+    """Both heuristics."""
+    at = [10 ** (i / 60) for i in range(-90, 91)]
+    series = [
+        Series("balance heuristic", [(x, x / (x + 1)) for x in at], marked=False),
+        Series("power heuristic", [(x, x * x / (x * x + 1)) for x in at], marked=False),
+    ]
+    x, y = log_axis("density, where the other one is 1", at), Axis("weight", 0.0, 1.0)
+    words = (
+        "Both curves rise from 0 to 1 and are 1/2 where the densities are the same. At a density of 3 the balance "
+        "heuristic gives 0.75, the power heuristic 0.9; at a third 0.25 and 0.1."
+    )
+    return svg_text([Chart("what a sample counts", x, y, series)], width=_WIDE, description=words, plate=True)

@@ -5,10 +5,20 @@ import math
 import numpy as np
 import pytest
 
+from raysteps.judge.cases.mis import mean_of_plates
 from raysteps.judge.cases.path_tracing import FUNCTIONS, mean_light
 from raysteps.judge.functions import Function
 from raysteps.judge.protocol import Fill, Hit, Inputs, Vec, Whole, text
-from raysteps.judge.scripted_tracer import PathHit, PathScript, Scatter
+from raysteps.judge.scripted_tracer import (
+    DirectSamples,
+    MisHit,
+    MisScript,
+    PathHit,
+    PathScript,
+    PlateLamp,
+    Scatter,
+    WeighedScatter,
+)
 from raysteps.judge.statistics import Numbers
 
 _FUNCTIONS = {function.name: function for function in FUNCTIONS}
@@ -127,3 +137,27 @@ def _hit(
 )
 def test_the_mean_light_of_a_script(script: PathScript, light: float) -> None:
     assert mean_light(script) == pytest.approx((light, light, light))
+
+
+def _plate(weight: float, exponent: float, *lamps: PlateLamp) -> MisHit:
+    scatter = WeighedScatter(Scatter(_UP, (weight, weight, weight)), 0.0)
+    return MisHit(2.5, _UP, _BLACK, True, 0.0, DirectSamples(()), scatter, exponent, lamps)
+
+
+_SKY = PlateLamp(0.0, 1.0, (2.0, 2.0, 2.0))
+_QUARTER = PlateLamp(0.75, 1.0, (2.0, 2.0, 2.0))
+_HALF = PlateLamp(0.25, 0.75, (4.0, 4.0, 4.0))
+
+
+@pytest.mark.parametrize(
+    ("script", "light"),
+    [
+        (MisScript(_BLACK, goes_on=False, hits=(_plate(0.5, 3.0, _SKY),)), 1.0),
+        (MisScript((1.0, 1.0, 1.0), goes_on=False, hits=(_plate(0.5, 0.0, _QUARTER),)), 0.25 + 0.375),
+        (MisScript(_BLACK, goes_on=False, hits=(_plate(0.5, 1.0, _QUARTER, _HALF),)), 0.4375 + 1.0),
+        (MisScript(_BLACK, goes_on=True, hits=(_plate(0.5, 0.0, _QUARTER),)), 0.25 / (1 - 0.375)),
+        (MisScript(_BLACK, goes_on=True, hits=(_plate(0.5, 0.0), _plate(0.5, 0.0, _QUARTER))), 0.2),
+    ],
+)
+def test_the_mean_light_between_plates(script: MisScript, light: float) -> None:
+    assert mean_of_plates(script) == pytest.approx((light, light, light))
