@@ -459,6 +459,22 @@ def _late(draw: RandomSource) -> PathScript:
     return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
 
 
+def _dark_wall(draw: RandomSource) -> PathScript:
+    """The wall behind which roulette begins takes most of the light: so few paths go on from just there."""
+    weights = (*((0.95, 0.98) for _ in range(_SURE)), (0.1, 0.15), (0.3, 0.5))
+    walls = [
+        PathHit(
+            i + 1 + draw.real(0.1, 0.8),
+            draw.direction(),
+            _BLACK,
+            _BLACK,
+            Scatter(draw.direction(), _gray(draw, *share)),
+        )
+        for i, share in enumerate(weights)
+    ]
+    return PathScript(draw.color(0.5, 1.0), goes_on=False, hits=tuple(walls))
+
+
 def _colored_walls(draw: RandomSource) -> PathScript:
     """A channel that is strong, one that is weak."""
     weight = (draw.real(0.75, 0.85), draw.real(0.3, 0.5), draw.real(0.55, 0.7))
@@ -496,6 +512,7 @@ _PATH_LIGHT = Function(
         Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: _often(d, _furnace(d, 0.75, 0.8), 0.06)),
         Group("light found late", lambda d: _often(d, _late(d), 0.2)),
+        Group("a dark wall", lambda d: _often(d, _dark_wall(d), 0.3)),
         Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.08)),
         Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.08)),
     ),
