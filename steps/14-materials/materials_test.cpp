@@ -1,8 +1,10 @@
 // Visible tests of step 14: what Fresnel says, what microfacets show, and where paths go on.
 #include "steps/14-materials/materials.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "testing/testing.hpp"
 
@@ -54,10 +56,11 @@ double over_half_sphere(const Function& f) {
     return sum;
 }
 
+/// Each time with a fresh stream, as the framework does.
 template <typename Draw>
 void many_times(int count, const Draw& draw) {
-    RandomStream random(test_seed(), 14);
     for (int i = 0; i < count; ++i) {
+        RandomStream random(test_seed(), static_cast<std::uint32_t>(i));
         draw(random);
     }
 }
@@ -82,6 +85,7 @@ TEST_CASE("from inside the same share comes back as from outside, at the refract
     for (const float outside : {0.2F, 0.5F, 0.8F}) {
         const float inside = std::sqrt(1.0F - (1.0F - outside * outside) / (1.5F * 1.5F));
         CHECK(fresnel_dielectric(inside, 1.5F) == about(fresnel_dielectric(outside, 1.0F / 1.5F)));
+        CHECK(fresnel_dielectric(inside, 1.5F) > 0.03F);
     }
 }
 
@@ -149,18 +153,22 @@ TEST_CASE("the microfacets that a view sees fill as much of it as the surface do
 TEST_CASE("visible normals have length 1 and point up", "[sample_visible_normal]") {
     for (const float alpha : k_alphas) {
         for (const float z : {1.0F, 0.6F, 0.05F}) {
+            float flattest = 1.0F;
             many_times(200, [&](RandomStream& random) {
                 const glm::vec3 normal = sample_visible_normal(leaning(z), alpha, random.next_2d());
                 REQUIRE(glm::length(normal) == about(1.0F));
                 REQUIRE(normal.z >= 0.0F);
+                flattest = std::min(flattest, normal.z);
             });
+            INFO("and they lean");
+            CHECK(flattest < 0.9999F);
         }
     }
 }
 
 TEST_CASE("visible normals come as often as their density says", "[sample_visible_normal][visible_normal_pdf]") {
     INFO("means of x, y and z, drawn and added up over the half sphere");
-    constexpr int k_count = 40000;
+    constexpr int k_count = 10000;
     for (const float z : {1.0F, 0.7F, 0.3F}) {
         const glm::vec3 view = leaning(z);
         CAPTURE(z);
@@ -171,7 +179,7 @@ TEST_CASE("visible normals come as often as their density says", "[sample_visibl
         for (int axis = 0; axis < 3; ++axis) {
             const double mean = over_half_sphere(
                 [&](const glm::vec3& normal) { return normal[axis] * visible_normal_pdf(view, normal, 0.5F); });
-            CHECK(std::abs(static_cast<double>(drawn[axis]) - mean) < 0.015);
+            CHECK(std::abs(static_cast<double>(drawn[axis]) - mean) < 0.03);
         }
     }
 }
@@ -202,6 +210,7 @@ TEST_CASE("rough metal sends as much from one direction to the other as back", "
     const glm::vec3 other = leaning(0.9F, 2.0F);
     const Color copper(0.95F, 0.64F, 0.54F);
     CHECK_THAT(metal_brdf(one, other, copper, 0.6F), IsNear(metal_brdf(other, one, copper, 0.6F)));
+    CHECK(metal_brdf(one, other, copper, 0.6F).r > 0.0F);
 }
 
 TEST_CASE("nothing goes through metal", "[metal_brdf][metal_pdf]") {
@@ -212,6 +221,9 @@ TEST_CASE("nothing goes through metal", "[metal_brdf][metal_pdf]") {
     CHECK(metal_brdf(below, leaning(-0.7F), k_white, 0.5F) == k_black);
     CHECK(metal_pdf(above, below, 0.5F) == 0.0F);
     CHECK(metal_pdf(below, above, 0.5F) == 0.0F);
+    INFO("it comes back");
+    CHECK(metal_brdf(above, leaning(0.7F), k_white, 0.5F).r > 0.0F);
+    CHECK(metal_pdf(above, leaning(0.7F), 0.5F) > 0.0F);
 }
 
 TEST_CASE("what a path does at rough metal is f cos / pdf", "[scatter_metal]") {
@@ -254,7 +266,7 @@ TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back
     INFO("metal that mirrors all, below a sky of 1: the rest would have met a second microfacet");
     HitRecord hit = rough_hit(1.0F, 1.0F);
     hit.fill.color = k_white;
-    constexpr int k_count = 40000;
+    constexpr int k_count = 10000;
     float sum = 0.0F;
     many_times(k_count, [&](RandomStream& random) {
         const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
@@ -263,7 +275,7 @@ TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back
             sum += sample->weight.x;
         }
     });
-    CHECK(std::abs(sum / static_cast<float>(k_count) - (1.0F - std::log(2.0F))) < 0.011F);
+    CHECK(std::abs(sum / static_cast<float>(k_count) - (1.0F - std::log(2.0F))) < 0.022F);
 }
 
 TEST_CASE("the normal of the surface may point anywhere", "[scatter_metal][scatter_glass]") {
@@ -288,7 +300,7 @@ TEST_CASE("the normal of the surface may point anywhere", "[scatter_metal][scatt
 TEST_CASE("clear glass mirrors some paths and refracts the others", "[scatter_glass]") {
     HitRecord hit = hit_of(k_up, {0.6F, 0.0F, 0.8F});
     hit.front_face = true;
-    constexpr int k_count = 20000;
+    constexpr int k_count = 8000;
     int mirrored = 0;
     many_times(k_count, [&](RandomStream& random) {
         const std::optional<ScatterSample> sample = scatter_glass(hit, random);
@@ -304,7 +316,7 @@ TEST_CASE("clear glass mirrors some paths and refracts the others", "[scatter_gl
     });
     const float share = static_cast<float>(mirrored) / static_cast<float>(k_count);
     INFO("4.52 % come back; " << mirrored << " of " << k_count << " did");
-    CHECK(std::abs(share - 0.0452F) < 0.01F);
+    CHECK(std::abs(share - 0.0452F) < 0.015F);
 }
 
 TEST_CASE("glass from inside", "[scatter_glass]") {

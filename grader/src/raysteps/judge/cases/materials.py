@@ -625,6 +625,7 @@ _SCATTER_GLASS = Function(
         Group("refraction is impossible", lambda d: _inside(d, total=True)),
         Group("a little rough, from above", lambda d: _glass(d, 0.85, 0.98, _alpha(d, 0.03, 0.06))),
         Group("rough", lambda d: _glass(d, 0.4, 0.98, _alpha(d, 0.1, 0.6), 256)),
+        Group("rough, and a flat view", lambda d: _glass(d, 0.1, 0.25, _alpha(d, 0.6, 1.0), 2048)),
         Group("very many samples", lambda d: _glass(d, 0.3, 0.9, Real(0.0), 16_384)),
     ),
 )
