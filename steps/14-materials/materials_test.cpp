@@ -143,7 +143,8 @@ TEST_CASE("the microfacets that a view sees fill as much of it as the surface do
     for (const float z : {0.2F, 0.5F, 0.9F}) {
         const glm::vec3 view = leaning(z);
         const double seen = over_half_sphere([&](const glm::vec3& normal) {
-            return ggx_distribution(normal, 0.5F) * std::max(0.0F, glm::dot(view, normal));
+            const float facing = glm::dot(view, normal);
+            return facing > 0.0F ? facing * ggx_distribution(normal, 0.5F) : 0.0F;
         });
         CAPTURE(z);
         CHECK(static_cast<double>((1.0F + ggx_lambda(view, 0.5F)) * z) == about(static_cast<float>(seen), 0.01F));
@@ -176,7 +177,7 @@ TEST_CASE("visible normals come as often as their density says", "[sample_visibl
         many_times(k_count, [&](RandomStream& random) {
             drawn += sample_visible_normal(view, 0.5F, random.next_2d()) / static_cast<float>(k_count);
         });
-        for (int axis = 0; axis < 3; ++axis) {
+        for (const int axis : {0, 1, 2}) {
             const double mean = over_half_sphere(
                 [&](const glm::vec3& normal) { return normal[axis] * visible_normal_pdf(view, normal, 0.5F); });
             CHECK(std::abs(static_cast<double>(drawn[axis]) - mean) < 0.03);
