@@ -154,8 +154,7 @@ TEST_CASE("metal and glass are named", "[inspect]") {
         scene.camera = {.from = {0, 0, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .width = 3, .height = 3};
         scene.add(std::make_unique<Sphere>(glm::vec3(0), 1.0F, fill));
         const auto accelerator = make_accelerator(Acceleration::none, scene.surfaces());
-        return inspect_text(
-            inspect_pixel(scene, scene.camera, *accelerator, Acceleration::none, options_of(14), 1, 1));
+        return inspect_text(inspect_pixel(scene, scene.camera, *accelerator, Acceleration::none, options_of(14), 1, 1));
     };
     Fill fill{.index_of_refraction = 1.5F, .scattering = Scattering::glass};
     CHECK(text_of(fill).find("shine 1  glass of index 1.5\n") != std::string::npos);

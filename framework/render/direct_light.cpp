@@ -56,8 +56,8 @@ Color DirectLight::at(const HitRecord& hit, RayNumber ray) {
 Color DirectLight::of_area_light(std::size_t light, const HitRecord& hit, RayNumber ray, const glm::vec2& u) {
     const AreaLight& lamp = scene_.area_lights[light];
     const LightSample sample = sample_light(lamp.shape, hit.position, u);
-    const Color color = is_metal(hit) ? sampled_metal_light(hit, lamp.radiance, sample)
-                                      : sampled_light(hit, lamp.radiance, sample);
+    const Color color =
+        is_metal(hit) ? sampled_metal_light(hit, lamp.radiance, sample) : sampled_light(hit, lamp.radiance, sample);
     if (!(std::max({color.r, color.g, color.b}) > 0.0F)) {
         return k_black;
     }
