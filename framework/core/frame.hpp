@@ -14,11 +14,10 @@ struct Frame {
 
     /// With the normal, of unit length, as z (Duff et al., "Building an orthonormal basis, revisited", 2017).
     [[nodiscard]] static Frame around(const glm::vec3& normal) {
-        const float sign = std::copysign(1.0F, normal.z);
-        const float a = -1.0F / (sign + normal.z);
-        const float b = normal.x * normal.y * a;
-        return {.x = {1.0F + sign * normal.x * normal.x * a, sign * b, -sign * normal.x},
-                .y = {b, sign + normal.y * normal.y * a, -normal.y},
+        const float side = normal.z < 0.0F ? -1.0F : 1.0F;
+        const glm::vec3 lean = normal / (1.0F + std::abs(normal.z));
+        return {.x = {1.0F - normal.x * lean.x, -normal.y * lean.x, -side * normal.x},
+                .y = {-side * normal.y * lean.x, side * (1.0F - normal.y * lean.y), -normal.y},
                 .z = normal};
     }
 

@@ -273,9 +273,10 @@ TEST_CASE("directives that this kit does not read", "[pbrt][errors]") {
     CHECK(error_of("WorldBegin Shape \"cylinder\"") ==
           "bad.pbrt:1:12: expected a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\", \"sphere\" or "
           "\"disk\", found `cylinder`");
-    CHECK(error_of("WorldBegin Material \"metal\"") ==
-          "bad.pbrt:1:12: expected a material of the kind \"diffuse\", \"coateddiffuse\", \"conductor\", \"dielectric\" "
-          "or \"phong\", found `metal`");
+    CHECK(
+        error_of("WorldBegin Material \"metal\"") ==
+        "bad.pbrt:1:12: expected a material of the kind \"diffuse\", \"coateddiffuse\", \"conductor\", \"dielectric\" "
+        "or \"phong\", found `metal`");
     CHECK(error_of("WorldBegin LightSource \"spot\"") ==
           "bad.pbrt:1:12: expected a light of the kind \"point\" or \"distant\", or \"infinite\" of one colour, found "
           "`spot`");

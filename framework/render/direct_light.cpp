@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <numeric>
 
 #include "steps/03-phong-shading/phong_shading.hpp"
 #include "steps/04-shadows/shadows.hpp"
@@ -13,29 +14,24 @@ namespace raysteps {
 
 namespace {
 
-/// f cos of rough metal, towards the viewer.
-Color metal_reflection(const HitRecord& hit, const glm::vec3& to_light) {
+/// f cos of rough metal, from the point to the viewer.
+Color metal_reflection(const HitRecord& hit, const glm::vec3& point) {
     const Frame frame = Frame::around(hit.normal);
-    const glm::vec3 light = frame.to_local(to_light);
+    const glm::vec3 light = frame.to_local(glm::normalize(point - hit.position));
     const glm::vec3 view = frame.to_local(-hit.ray_direction);
-    return light.z > 0.0F ? light.z * metal_brdf(view, light, hit.fill.color, hit.fill.roughness) : k_black;
+    const Fill& metal = hit.fill;
+    return light.z > 0.0F ? light.z * metal_brdf(view, light, metal.color, metal.roughness) : k_black;
 }
 
 /// A matt surface of part one sends kd * color * cos of a point light's colour, which is pi times f cos.
 Color shade_metal(const HitRecord& hit, const std::vector<Light>& lights) {
-    Color sum = k_black;
-    for (const Light& light : lights) {
-        const glm::vec3 to_light = glm::normalize(light.position - hit.position);
-        sum += glm::pi<float>() * metal_reflection(hit, to_light) * light.color;
-    }
-    return sum;
+    return std::accumulate(lights.begin(), lights.end(), k_black, [&hit](const Color& sum, const Light& light) {
+        return sum + glm::pi<float>() * light.color * metal_reflection(hit, light.position);
+    });
 }
 
 Color sampled_metal_light(const HitRecord& hit, const Color& radiance, const LightSample& sample) {
-    if (!(sample.pdf > 0.0F)) {
-        return k_black;
-    }
-    return radiance * metal_reflection(hit, glm::normalize(sample.position - hit.position)) / sample.pdf;
+    return sample.pdf > 0.0F ? radiance / sample.pdf * metal_reflection(hit, sample.position) : k_black;
 }
 
 }  // namespace

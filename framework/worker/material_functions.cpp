@@ -32,7 +32,9 @@ void ask_fresnel_schlick(TokenReader& words, TokenWriter& answer) {
     answer.vector(fresnel_schlick(f0, words.number()));
 }
 
-void ask_scatter_mirror(TokenReader& words, TokenWriter& answer) { write_sample(answer, scatter_mirror(read_hit(words))); }
+void ask_scatter_mirror(TokenReader& words, TokenWriter& answer) {
+    write_sample(answer, scatter_mirror(read_hit(words)));
+}
 
 void ask_ggx_distribution(TokenReader& words, TokenWriter& answer) {
     const glm::vec3 normal = words.vector();

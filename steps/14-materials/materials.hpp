@@ -13,8 +13,8 @@ namespace raysteps {
 
 /// The share of unpolarised light that the border of two clear media sends back (Fresnel's equations), the mean of
 ///     ((n1 cos1 - n2 cos2) / (n1 cos1 + n2 cos2))^2   and   ((n2 cos1 - n1 cos2) / (n2 cos1 + n1 cos2))^2,
-/// where cos2 is that of the refracted ray. cosine is cos1, of the ray that arrives, 0 <= cosine <= 1; eta = n1 / n2, n1
-/// on the side that the ray comes from, eta > 0. 1 where refraction is impossible.
+/// where cos2 is that of the refracted ray. cosine is cos1, of the ray that arrives, 0 <= cosine <= 1; eta = n1 / n2,
+/// n1 on the side that the ray comes from, eta > 0. 1 where refraction is impossible.
 [[nodiscard]] float fresnel_dielectric(float cosine, float eta);
 
 /// The share that metal sends back, by channel: Schlick's approximation (1994), f0 + (1 - f0) (1 - cosine)^5, with what
@@ -48,9 +48,9 @@ namespace raysteps {
 
 // What comes of it.
 
-/// What rough metal sends from one direction to the other, f, without any cosine. Both point away from the surface, unit
-/// length:  F D(h) / (4 (1 + lambda(view) + lambda(light)) view.z light.z),  where h is the normal between the two, F is
-/// fresnel_schlick of dot(view, h), D is GGX. Black where view.z or light.z is not above 0.
+/// What rough metal sends from one direction to the other, f, without any cosine. Both point away from the surface,
+/// unit length:  F D(h) / (4 (1 + lambda(view) + lambda(light)) view.z light.z),  where h is the normal between the
+/// two, F is fresnel_schlick of dot(view, h), D is GGX. Black where view.z or light.z is not above 0.
 [[nodiscard]] Color metal_brdf(const glm::vec3& view, const glm::vec3& light, const Color& f0, float alpha);
 
 /// The density by solid angle with which scatter_metal goes on from view to light:
@@ -58,8 +58,8 @@ namespace raysteps {
 [[nodiscard]] float metal_pdf(const glm::vec3& view, const glm::vec3& light, float alpha);
 
 /// Where a path goes on from rough metal, of fill.color and fill.roughness: the mirrored direction of a visible normal.
-/// pdf is metal_pdf, the weight f cos / pdf; not specular. Nothing where the direction leads below the surface, or where
-/// the view, -hit.ray_direction, is not above it.
+/// pdf is metal_pdf, the weight f cos / pdf; not specular. Nothing where the direction leads below the surface, or
+/// where the view, -hit.ray_direction, is not above it.
 [[nodiscard]] std::optional<ScatterSample> scatter_metal(const HitRecord& hit, const glm::vec2& u);
 
 /// Where a path goes on from glass, with fill.index_of_refraction inside and a vacuum outside: hit.front_face tells

@@ -1,8 +1,10 @@
 // Visible tests of step 14: what Fresnel says, what microfacets show, and where paths go on.
 #include "steps/14-materials/materials.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "testing/testing.hpp"
 
@@ -54,45 +56,48 @@ double over_half_sphere(const Function& f) {
     return sum;
 }
 
+/// Each time with a fresh stream, as the framework does.
 template <typename Draw>
 void many_times(int count, const Draw& draw) {
-    RandomStream random(test_seed(), 14);
     for (int i = 0; i < count; ++i) {
+        RandomStream random(test_seed(), static_cast<std::uint32_t>(i));
         draw(random);
     }
 }
 
 }  // namespace
 
-TEST_CASE("glass mirrors 4 % straight on, and all along its surface", "[fresnel_dielectric]") {
+TEST_CASE("glass mirrors 4 % straight on, and all along its surface", "[14-materials][fresnel_dielectric]") {
     CHECK(fresnel_dielectric(1.0F, 1.0F / 1.5F) == about(0.04F));
     CHECK(fresnel_dielectric(1.0F, 1.5F) == about(0.04F));
     CHECK(fresnel_dielectric(0.0F, 1.0F / 1.5F) == about(1.0F));
     CHECK(fresnel_dielectric(0.7F, 1.0F) == about(0.0F));
 }
 
-TEST_CASE("at Brewster's angle only light of one polarisation comes back", "[fresnel_dielectric]") {
+TEST_CASE("at Brewster's angle only light of one polarisation comes back", "[14-materials][fresnel_dielectric]") {
     INFO("where tan is the index: half of ((1 - n^2) / (1 + n^2))^2");
     const float cosine = 1.0F / std::sqrt(1.0F + 1.5F * 1.5F);
     const float across = (1.0F - 1.5F * 1.5F) / (1.0F + 1.5F * 1.5F);
     CHECK(fresnel_dielectric(cosine, 1.0F / 1.5F) == about(0.5F * across * across));
 }
 
-TEST_CASE("from inside the same share comes back as from outside, at the refracted angle", "[fresnel_dielectric]") {
+TEST_CASE("from inside the same share comes back as from outside, at the refracted angle",
+          "[14-materials][fresnel_dielectric]") {
     for (const float outside : {0.2F, 0.5F, 0.8F}) {
         const float inside = std::sqrt(1.0F - (1.0F - outside * outside) / (1.5F * 1.5F));
         CHECK(fresnel_dielectric(inside, 1.5F) == about(fresnel_dielectric(outside, 1.0F / 1.5F)));
+        CHECK(fresnel_dielectric(inside, 1.5F) > 0.03F);
     }
 }
 
-TEST_CASE("where refraction is impossible all light comes back", "[fresnel_dielectric]") {
+TEST_CASE("where refraction is impossible all light comes back", "[14-materials][fresnel_dielectric]") {
     for (const float cosine : {0.0F, 0.3F, 0.7F}) {
         CHECK(fresnel_dielectric(cosine, 1.5F) == about(1.0F));
     }
     CHECK(fresnel_dielectric(0.75F, 1.5F) < 1.0F);
 }
 
-TEST_CASE("metal shows its colour straight on and becomes white along its surface", "[fresnel_schlick]") {
+TEST_CASE("metal shows its colour straight on and becomes white along its surface", "[14-materials][fresnel_schlick]") {
     const Color gold(1.0F, 0.77F, 0.34F);
     CHECK_THAT(fresnel_schlick(gold, 1.0F), IsNear(gold));
     CHECK_THAT(fresnel_schlick(gold, 0.0F), IsNear(k_white));
@@ -100,7 +105,7 @@ TEST_CASE("metal shows its colour straight on and becomes white along its surfac
     CHECK_THAT(fresnel_schlick(gold, 0.5F), IsNear(gold + (k_white - gold) / 32.0F));
 }
 
-TEST_CASE("a polished metal mirrors", "[scatter_mirror]") {
+TEST_CASE("a polished metal mirrors", "[14-materials][scatter_mirror]") {
     const ScatterSample sample = scatter_mirror(hit_of({0.0F, 1.0F, 0.0F}, {0.6F, 0.8F, 0.0F}));
     CHECK_THAT(sample.direction, IsNear({-0.6F, 0.8F, 0.0F}));
     CHECK_THAT(sample.weight, IsNear(fresnel_schlick({0.9F, 0.6F, 0.3F}, 0.8F)));
@@ -108,7 +113,8 @@ TEST_CASE("a polished metal mirrors", "[scatter_mirror]") {
     CHECK(sample.specular);
 }
 
-TEST_CASE("straight up GGX is 1 / (pi alpha^2), and below there are no microfacets", "[ggx_distribution]") {
+TEST_CASE("straight up GGX is 1 / (pi alpha^2), and below there are no microfacets",
+          "[14-materials][ggx_distribution]") {
     for (const float alpha : k_alphas) {
         CAPTURE(alpha);
         CHECK(ggx_distribution(k_up, alpha) == about(1.0F / (k_pi * alpha * alpha)));
@@ -119,7 +125,7 @@ TEST_CASE("straight up GGX is 1 / (pi alpha^2), and below there are no microface
     CHECK(ggx_distribution(leaning(0.3F), 1.0F) == about(1.0F / k_pi));
 }
 
-TEST_CASE("seen from above, all microfacets together cover the surface once", "[ggx_distribution]") {
+TEST_CASE("seen from above, all microfacets together cover the surface once", "[14-materials][ggx_distribution]") {
     for (const float alpha : {0.2F, 0.5F, 1.0F}) {
         CAPTURE(alpha);
         const double sum = over_half_sphere([&](const glm::vec3& n) { return n.z * ggx_distribution(n, alpha); });
@@ -127,7 +133,7 @@ TEST_CASE("seen from above, all microfacets together cover the surface once", "[
     }
 }
 
-TEST_CASE("nothing is hidden from above, and much from the side", "[ggx_lambda]") {
+TEST_CASE("nothing is hidden from above, and much from the side", "[14-materials][ggx_lambda]") {
     CHECK(ggx_lambda(k_up, 0.5F) == about(0.0F));
     INFO("alpha tan = 1: (sqrt(2) - 1) / 2");
     CHECK(ggx_lambda({0.8F, 0.0F, 0.6F}, 0.75F) == about(0.2071068F));
@@ -135,32 +141,38 @@ TEST_CASE("nothing is hidden from above, and much from the side", "[ggx_lambda]"
     CHECK(ggx_lambda(leaning(0.01F), 0.5F) > 20.0F);
 }
 
-TEST_CASE("the microfacets that a view sees fill as much of it as the surface does", "[ggx_lambda]") {
+TEST_CASE("the microfacets that a view sees fill as much of it as the surface does", "[14-materials][ggx_lambda]") {
     for (const float z : {0.2F, 0.5F, 0.9F}) {
         const glm::vec3 view = leaning(z);
         const double seen = over_half_sphere([&](const glm::vec3& normal) {
-            return ggx_distribution(normal, 0.5F) * std::max(0.0F, glm::dot(view, normal));
+            const float facing = glm::dot(view, normal);
+            return facing > 0.0F ? facing * ggx_distribution(normal, 0.5F) : 0.0F;
         });
         CAPTURE(z);
         CHECK(static_cast<double>((1.0F + ggx_lambda(view, 0.5F)) * z) == about(static_cast<float>(seen), 0.01F));
     }
 }
 
-TEST_CASE("visible normals have length 1 and point up", "[sample_visible_normal]") {
+TEST_CASE("visible normals have length 1 and point up", "[14-materials][sample_visible_normal]") {
     for (const float alpha : k_alphas) {
         for (const float z : {1.0F, 0.6F, 0.05F}) {
+            float flattest = 1.0F;
             many_times(200, [&](RandomStream& random) {
                 const glm::vec3 normal = sample_visible_normal(leaning(z), alpha, random.next_2d());
                 REQUIRE(glm::length(normal) == about(1.0F));
                 REQUIRE(normal.z >= 0.0F);
+                flattest = std::min(flattest, normal.z);
             });
+            INFO("and they lean");
+            CHECK(flattest < 0.9999F);
         }
     }
 }
 
-TEST_CASE("visible normals come as often as their density says", "[sample_visible_normal][visible_normal_pdf]") {
+TEST_CASE("visible normals come as often as their density says",
+          "[14-materials][sample_visible_normal][visible_normal_pdf]") {
     INFO("means of x, y and z, drawn and added up over the half sphere");
-    constexpr int k_count = 40000;
+    constexpr int k_count = 10000;
     for (const float z : {1.0F, 0.7F, 0.3F}) {
         const glm::vec3 view = leaning(z);
         CAPTURE(z);
@@ -168,20 +180,20 @@ TEST_CASE("visible normals come as often as their density says", "[sample_visibl
         many_times(k_count, [&](RandomStream& random) {
             drawn += sample_visible_normal(view, 0.5F, random.next_2d()) / static_cast<float>(k_count);
         });
-        for (int axis = 0; axis < 3; ++axis) {
+        for (const int axis : {0, 1, 2}) {
             const double mean = over_half_sphere(
                 [&](const glm::vec3& normal) { return normal[axis] * visible_normal_pdf(view, normal, 0.5F); });
-            CHECK(std::abs(static_cast<double>(drawn[axis]) - mean) < 0.015);
+            CHECK(std::abs(static_cast<double>(drawn[axis]) - mean) < 0.03);
         }
     }
 }
 
-TEST_CASE("the density of visible normals adds up to 1", "[visible_normal_pdf]") {
+TEST_CASE("the density of visible normals adds up to 1", "[14-materials][visible_normal_pdf]") {
     for (const float alpha : {0.3F, 1.0F}) {
         for (const float z : {1.0F, 0.5F, 0.1F}) {
             CAPTURE(alpha, z);
-            const double sum =
-                over_half_sphere([&](const glm::vec3& normal) { return visible_normal_pdf(leaning(z), normal, alpha); });
+            const double sum = over_half_sphere(
+                [&](const glm::vec3& normal) { return visible_normal_pdf(leaning(z), normal, alpha); });
             CHECK(sum == about(1.0F, 0.01F));
         }
     }
@@ -189,7 +201,7 @@ TEST_CASE("the density of visible normals adds up to 1", "[visible_normal_pdf]")
     CHECK(visible_normal_pdf(leaning(0.1F, 0.0F), leaning(0.3F, k_pi), 0.5F) == 0.0F);
 }
 
-TEST_CASE("rough metal: the worked example", "[metal_brdf][metal_pdf]") {
+TEST_CASE("rough metal: the worked example", "[14-materials][metal_brdf][metal_pdf]") {
     const glm::vec3 view(0.6F, 0.0F, 0.8F);
     const glm::vec3 light(-0.6F, 0.0F, 0.8F);
     INFO("h is straight up: D = 1 / (pi / 4) = 1.2732, lambda = (sqrt(1 + 0.25 * 0.5625) - 1) / 2 = 0.03401");
@@ -197,14 +209,15 @@ TEST_CASE("rough metal: the worked example", "[metal_brdf][metal_pdf]") {
     CHECK(metal_pdf(view, light, 0.5F) == about(0.38479F));
 }
 
-TEST_CASE("rough metal sends as much from one direction to the other as back", "[metal_brdf]") {
+TEST_CASE("rough metal sends as much from one direction to the other as back", "[14-materials][metal_brdf]") {
     const glm::vec3 one = leaning(0.4F);
     const glm::vec3 other = leaning(0.9F, 2.0F);
     const Color copper(0.95F, 0.64F, 0.54F);
     CHECK_THAT(metal_brdf(one, other, copper, 0.6F), IsNear(metal_brdf(other, one, copper, 0.6F)));
+    CHECK(metal_brdf(one, other, copper, 0.6F).r > 0.0F);
 }
 
-TEST_CASE("nothing goes through metal", "[metal_brdf][metal_pdf]") {
+TEST_CASE("nothing goes through metal", "[14-materials][metal_brdf][metal_pdf]") {
     const glm::vec3 above = leaning(0.5F);
     const glm::vec3 below = leaning(-0.5F, 1.0F);
     CHECK(metal_brdf(above, below, k_white, 0.5F) == k_black);
@@ -212,9 +225,12 @@ TEST_CASE("nothing goes through metal", "[metal_brdf][metal_pdf]") {
     CHECK(metal_brdf(below, leaning(-0.7F), k_white, 0.5F) == k_black);
     CHECK(metal_pdf(above, below, 0.5F) == 0.0F);
     CHECK(metal_pdf(below, above, 0.5F) == 0.0F);
+    INFO("it comes back");
+    CHECK(metal_brdf(above, leaning(0.7F), k_white, 0.5F).r > 0.0F);
+    CHECK(metal_pdf(above, leaning(0.7F), 0.5F) > 0.0F);
 }
 
-TEST_CASE("what a path does at rough metal is f cos / pdf", "[scatter_metal]") {
+TEST_CASE("what a path does at rough metal is f cos / pdf", "[14-materials][scatter_metal]") {
     for (const float alpha : {0.1F, 0.4F, 1.0F}) {
         const HitRecord hit = rough_hit(0.7F, alpha);
         const glm::vec3 view = -hit.ray_direction;
@@ -236,7 +252,7 @@ TEST_CASE("what a path does at rough metal is f cos / pdf", "[scatter_metal]") {
     }
 }
 
-TEST_CASE("nearly smooth metal is a mirror", "[scatter_metal]") {
+TEST_CASE("nearly smooth metal is a mirror", "[14-materials][scatter_metal]") {
     const HitRecord hit = rough_hit(0.6F, 0.001F);
     const ScatterSample mirror = scatter_mirror(hit);
     int close = 0;
@@ -250,11 +266,11 @@ TEST_CASE("nearly smooth metal is a mirror", "[scatter_metal]") {
     CHECK(close > 90);
 }
 
-TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back", "[scatter_metal]") {
+TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back", "[14-materials][scatter_metal]") {
     INFO("metal that mirrors all, below a sky of 1: the rest would have met a second microfacet");
     HitRecord hit = rough_hit(1.0F, 1.0F);
     hit.fill.color = k_white;
-    constexpr int k_count = 40000;
+    constexpr int k_count = 10000;
     float sum = 0.0F;
     many_times(k_count, [&](RandomStream& random) {
         const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
@@ -263,10 +279,10 @@ TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back
             sum += sample->weight.x;
         }
     });
-    CHECK(std::abs(sum / static_cast<float>(k_count) - (1.0F - std::log(2.0F))) < 0.011F);
+    CHECK(std::abs(sum / static_cast<float>(k_count) - (1.0F - std::log(2.0F))) < 0.022F);
 }
 
-TEST_CASE("the normal of the surface may point anywhere", "[scatter_metal][scatter_glass]") {
+TEST_CASE("the normal of the surface may point anywhere", "[14-materials][scatter_metal][scatter_glass]") {
     for (const glm::vec3& normal : {glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(0.48F, -0.64F, 0.6F)}) {
         HitRecord hit = hit_of(normal, normal);
         hit.fill.roughness = 0.02F;
@@ -285,10 +301,10 @@ TEST_CASE("the normal of the surface may point anywhere", "[scatter_metal][scatt
     }
 }
 
-TEST_CASE("clear glass mirrors some paths and refracts the others", "[scatter_glass]") {
+TEST_CASE("clear glass mirrors some paths and refracts the others", "[14-materials][scatter_glass]") {
     HitRecord hit = hit_of(k_up, {0.6F, 0.0F, 0.8F});
     hit.front_face = true;
-    constexpr int k_count = 20000;
+    constexpr int k_count = 8000;
     int mirrored = 0;
     many_times(k_count, [&](RandomStream& random) {
         const std::optional<ScatterSample> sample = scatter_glass(hit, random);
@@ -304,10 +320,10 @@ TEST_CASE("clear glass mirrors some paths and refracts the others", "[scatter_gl
     });
     const float share = static_cast<float>(mirrored) / static_cast<float>(k_count);
     INFO("4.52 % come back; " << mirrored << " of " << k_count << " did");
-    CHECK(std::abs(share - 0.0452F) < 0.01F);
+    CHECK(std::abs(share - 0.0452F) < 0.015F);
 }
 
-TEST_CASE("glass from inside", "[scatter_glass]") {
+TEST_CASE("glass from inside", "[14-materials][scatter_glass]") {
     HitRecord hit = hit_of(k_up, {0.8F, 0.0F, 0.6F});
     hit.front_face = false;
     RandomStream random(test_seed(), 15);
@@ -329,7 +345,7 @@ TEST_CASE("glass from inside", "[scatter_glass]") {
     CHECK(out > 50);
 }
 
-TEST_CASE("frosted glass spreads what goes through it", "[scatter_glass]") {
+TEST_CASE("frosted glass spreads what goes through it", "[14-materials][scatter_glass]") {
     const HitRecord hit = rough_hit(1.0F, 0.4F);
     glm::vec3 least(1.0F);
     glm::vec3 most(-1.0F);

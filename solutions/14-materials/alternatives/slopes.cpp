@@ -152,8 +152,8 @@ std::optional<ScatterSample> scatter_glass(const HitRecord& hit, RandomStream& r
     const float cosine = std::clamp(glm::dot(view, facet), 0.0F, 1.0F);
     const bool goes_through = random.next() >= fresnel_dielectric(cosine, eta);
     const float sine2 = std::min(1.0F, squared(eta) * (1.0F - squared(cosine)));
-    const glm::vec3 next = goes_through ? -eta * view + (eta * cosine - std::sqrt(1.0F - sine2)) * facet
-                                        : 2.0F * cosine * facet - view;
+    const glm::vec3 next =
+        goes_through ? -eta * view + (eta * cosine - std::sqrt(1.0F - sine2)) * facet : 2.0F * cosine * facet - view;
     if (goes_through == (next.z >= 0.0F)) {
         return std::nullopt;
     }

@@ -1,5 +1,5 @@
-// Without the framework's frame: paths go on in the scene's own axes, with cosines alone, and the view lies in the plane
-// of x and z of a frame that is made for each hit.
+// Without the framework's frame: paths go on in the scene's own axes, with cosines alone, and the view lies in the
+// plane of x and z of a frame that is made for each hit.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -112,8 +112,8 @@ glm::vec3 sample_visible_normal(const glm::vec3& view, float alpha, const glm::v
     const float edge = std::sqrt(1.0F - p.x * p.x);
     const float y = glm::mix(edge, p.y, 0.5F + 0.5F * v.z);
     const float z = std::sqrt(std::max(0.0F, edge * edge - y * y));
-    const glm::vec3 across = std::hypot(v.x, v.y) > 1e-6F ? glm::normalize(glm::vec3(v.y, -v.x, 0.0F))
-                                                          : glm::vec3(1.0F, 0.0F, 0.0F);
+    const glm::vec3 across =
+        std::hypot(v.x, v.y) > 1e-6F ? glm::normalize(glm::vec3(v.y, -v.x, 0.0F)) : glm::vec3(1.0F, 0.0F, 0.0F);
     const glm::vec3 n = p.x * across + y * glm::cross(across, v) + z * v;
     return glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(n.z, 0.0F)));
 }

@@ -6,25 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from raysteps.common.vectors import Vector
-from raysteps.judge.protocol import Inputs, TokenReader, Vec, Whole, f32, text, vector_words
+from raysteps.judge.protocol import TokenReader, Whole, f32, text, vector_words
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers
 
 _MOST = 40_000
-
-
-def vec_of(inputs: Inputs, name: str) -> Vector:
-    """A vector of the question."""
-    value = inputs[name]
-    assert isinstance(value, Vec)
-    return value.value
-
-
-def whole_of(inputs: Inputs, name: str) -> int:
-    """A whole number of the question."""
-    value = inputs[name]
-    assert isinstance(value, Whole)
-    return value.value
+_UNIT = 1e-4
 
 
 def draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
@@ -40,7 +27,7 @@ def read_directions(tokens: TokenReader) -> Numbers:
     return np.array(found, dtype=np.float64).reshape(-1, 3)
 
 
-def words_of(v: Sequence[float] | Numbers) -> str:
+def _words_of(v: Sequence[float] | Numbers) -> str:
     """Of one direction or colour."""
     x, y, z = (float(value) for value in v)
     return vector_words((x, y, z))
@@ -48,7 +35,7 @@ def words_of(v: Sequence[float] | Numbers) -> str:
 
 def words_of_directions(directions: Numbers) -> str:
     """How many, and the first of them."""
-    shown = ", ".join(words_of(direction) for direction in directions[:4])
+    shown = ", ".join(_words_of(direction) for direction in directions[:4])
     return f"{len(directions)} directions, first {shown}"
 
 
@@ -110,7 +97,7 @@ def words_of_samples(samples: Samples) -> str:
     if len(samples.rows):
         row = samples.rows[0]
         shown.append(
-            f"{len(samples.rows)} samples, first direction {words_of(row[:3])} weight {words_of(row[3:6])} "
+            f"{len(samples.rows)} samples, first direction {_words_of(row[:3])} weight {_words_of(row[3:6])} "
             f"pdf {text(f32(float(row[6])))}{' specular' if row[7] else ''}"
         )
     return ", ".join(shown)
@@ -123,6 +110,3 @@ def unit_problem(directions: Numbers) -> str:
     if not (np.abs(np.linalg.norm(directions, axis=1) - 1) <= _UNIT).all():
         return "a direction does not have length 1"
     return ""
-
-
-_UNIT = 1e-4

@@ -127,10 +127,8 @@ std::optional<ScatterSample> scatter_glass(const HitRecord& hit, RandomStream& r
     }
     const float seen = is_rough ? 1.0F + ggx_lambda(view, alpha) : 1.0F;
     const float weight = is_rough ? seen / (seen + ggx_lambda(next, alpha)) : 1.0F;
-    return ScatterSample{.direction = glm::normalize(frame.to_world(next)),
-                         .weight = Color(weight),
-                         .pdf = 1.0F,
-                         .specular = true};
+    return ScatterSample{
+        .direction = glm::normalize(frame.to_world(next)), .weight = Color(weight), .pdf = 1.0F, .specular = true};
 }
 
 }  // namespace raysteps

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.common.vectors import Vector, cross, dot, minus, times, unit
-from raysteps.judge.answers import Answer, Tolerance, channels, direction, first, real, share_right, words_of_number
+from raysteps.judge.answers import Answer, Tolerance, channels, direction, first, number_answer, real, share_right
 from raysteps.judge.draws import (
     Samples,
     draws,
@@ -15,32 +15,29 @@ from raysteps.judge.draws import (
     read_sample,
     read_samples,
     unit_problem,
-    vec_of,
-    whole_of,
     words_of_directions,
     words_of_samples,
 )
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.protocol import Fill, Hit, Inputs, Real, TokenReader, Vec, f32, rounded, vector_words
+from raysteps.judge.protocol import (
+    Fill,
+    Hit,
+    Inputs,
+    Real,
+    TokenReader,
+    Vec,
+    f32,
+    real_of,
+    rounded,
+    vec_of,
+    vector_words,
+    whole_of,
+)
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform
 
 _UP: Vector = (0.0, 0.0, 1.0)
 Mask = npt.NDArray[np.bool_]
-
-
-def _real(inputs: Inputs, name: str) -> float:
-    value = inputs[name]
-    assert isinstance(value, Real)
-    return value.value
-
-
-def _number(what: str, tolerance: Tolerance) -> Answer[float]:
-    return Answer(
-        lambda tokens: tokens.real(),
-        words_of_number,
-        lambda _, expected, actual: real(what, expected, actual, tolerance),
-    )
 
 
 def _color(what: str, tolerance: Tolerance) -> Answer[Vector]:
@@ -72,7 +69,7 @@ def _from_dense(draw: RandomSource, *, total: bool) -> Inputs:
 
 _FRESNEL_DIELECTRIC = Function(
     "fresnel_dielectric",
-    _number("the share", Tolerance(2e-5, 2e-4)),
+    number_answer("the share", Tolerance(2e-5, 2e-4)),
     (
         Group("into the denser medium", lambda d: _fresnel(d.fine(0.05, 0.99), 1 / d.fine(1.15, 2.5))),
         Group("out of it", lambda d: _from_dense(d, total=False)),
@@ -189,7 +186,7 @@ def _below(v: Vector) -> Vector:
 
 _GGX_DISTRIBUTION = Function(
     "ggx_distribution",
-    _number("the density", Tolerance(1e-5, 1e-3)),
+    number_answer("the density", Tolerance(1e-5, 1e-3)),
     (
         Group("any normal", lambda d: _of_normal(d, 0.1, 1.0)),
         Group("nearly smooth", lambda d: _of_normal(d, 0.03, 0.1)),
@@ -207,7 +204,7 @@ def _of_direction(draw: RandomSource, low: float, high: float, side: float = 1.0
 
 _GGX_LAMBDA = Function(
     "ggx_lambda",
-    _number("lambda", Tolerance(1e-5, 1e-3)),
+    number_answer("lambda", Tolerance(1e-5, 1e-3)),
     (
         Group("any direction", lambda d: _of_direction(d, 0.1, 0.98)),
         Group("nearly along the surface", lambda d: _of_direction(d, 0.01, 0.1)),
@@ -273,7 +270,7 @@ _SAMPLE_VISIBLE_NORMAL = Function(
         read_directions,
         words_of_directions,
         lambda inputs, _, actual: (
-            _visible_problem(actual, vec_of(inputs, "view"), _real(inputs, "alpha"))
+            _visible_problem(actual, vec_of(inputs, "view"), real_of(inputs, "alpha"))
             if len(actual) == whole_of(inputs, "times")
             else "no proper answer came"
         ),
@@ -305,7 +302,7 @@ def _unseen_pdf(draw: RandomSource) -> Inputs:
 
 _VISIBLE_NORMAL_PDF = Function(
     "visible_normal_pdf",
-    _number("the density", Tolerance(1e-5, 1e-3)),
+    number_answer("the density", Tolerance(1e-5, 1e-3)),
     (
         Group("any view", lambda d: _visible_pdf(d, 0.2, 0.98)),
         Group("a flat view", lambda d: _visible_pdf(d, 0.03, 0.2)),
@@ -321,22 +318,21 @@ def _mirrored(view: Vector, normal: Vector) -> Vector:
     return rounded(unit(minus(times(2 * dot(view, normal), normal), view)))
 
 
-def _pair(draw: RandomSource, low: float, high: float, alpha: float) -> tuple[Vector, Vector]:
+def _pair(draw: RandomSource, low: float, high: float, alpha: float) -> dict[str, Vec]:
     """View and light, of a microfacet that is likely."""
     view = draw.above(_UP, low, high)
     light = draw.until(lambda found: found[2] > 0.03, lambda: _mirrored(view, _facing(draw, view, alpha)))
-    return view, light
-
-
-def _two_ways(draw: RandomSource, low: float, high: float, rough: tuple[float, float] = (0.1, 1.0)) -> dict[str, Vec]:
-    alpha = _alpha(draw, *rough)
-    view, light = _pair(draw, low, high, alpha.value)
-    return {"view": Vec(view), "light": Vec(light), "alpha": alpha}  # type: ignore[dict-item]
+    return {"view": Vec(view), "light": Vec(light)}
 
 
 def _brdf(draw: RandomSource, low: float, high: float, rough: tuple[float, float] = (0.1, 1.0)) -> Inputs:
-    found = _two_ways(draw, low, high, rough)
-    return {"view": found["view"], "light": found["light"], "f0": Vec(draw.color(0.1, 1.0)), "alpha": found["alpha"]}
+    alpha = _alpha(draw, *rough)
+    return {**_pair(draw, low, high, alpha.value), "f0": Vec(draw.color(0.1, 1.0)), "alpha": alpha}
+
+
+def _metal_pdf(draw: RandomSource, low: float, high: float) -> Inputs:
+    alpha = _alpha(draw, 0.1)
+    return {**_pair(draw, low, high, alpha.value), "alpha": alpha}
 
 
 def _below_one(draw: RandomSource) -> dict[str, Vec]:
@@ -366,10 +362,10 @@ _METAL_BRDF = Function(
 
 _METAL_PDF = Function(
     "metal_pdf",
-    _number("the density", Tolerance(1e-5, 2e-3)),
+    number_answer("the density", Tolerance(1e-5, 2e-3)),
     (
-        Group("any directions", lambda d: {**_two_ways(d, 0.2, 0.98)}),
-        Group("a flat view", lambda d: {**_two_ways(d, 0.03, 0.2)}),
+        Group("any directions", lambda d: _metal_pdf(d, 0.2, 0.98)),
+        Group("a flat view", lambda d: _metal_pdf(d, 0.03, 0.2)),
         Group("below the surface", lambda d: {**_below_one(d), "alpha": _alpha(d, 0.1)}, exact=True),
     ),
 )
@@ -415,7 +411,7 @@ def _weights_differ(mine: Numbers, right: Numbers, steep: Mask) -> bool:
 
 
 def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
-    hit, alpha = inputs["hit"], _real(inputs, "roughness")
+    hit, alpha = inputs["hit"], real_of(inputs, "roughness")
     assert isinstance(hit, Hit)
     if actual.count != whole_of(inputs, "times") or not len(actual.rows):
         return ("no proper answer came",) * 4
@@ -539,10 +535,10 @@ _MOST_OF_GLASS = 40_000
 
 def _dielectric(cosines: Numbers, eta: float) -> Numbers:
     sine2 = eta * eta * (1 - cosines**2)
-    other = np.sqrt(np.maximum(0.0, 1 - sine2))
+    other = np.sqrt(np.where(sine2 < 1, 1 - sine2, 1.0))
     across = (eta * cosines - other) / (eta * cosines + other)
     along = (cosines - eta * other) / (cosines + eta * other)
-    return np.where(sine2 >= 1, 1.0, 0.5 * (across**2 + along**2))
+    return np.where(sine2 < 1, 0.5 * (across**2 + along**2), 1.0)
 
 
 def _eta(hit: Hit) -> float:
@@ -551,7 +547,7 @@ def _eta(hit: Hit) -> float:
 
 
 def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
-    hit, alpha, samples = inputs["hit"], _real(inputs, "roughness"), actual.samples
+    hit, alpha, samples = inputs["hit"], real_of(inputs, "roughness"), actual.samples
     assert isinstance(hit, Hit)
     if samples.count != whole_of(inputs, "times") or not len(samples.rows):
         return ("no proper answer came",) * 4
@@ -629,6 +625,7 @@ _SCATTER_GLASS = Function(
         Group("refraction is impossible", lambda d: _inside(d, total=True)),
         Group("a little rough, from above", lambda d: _glass(d, 0.85, 0.98, _alpha(d, 0.03, 0.06))),
         Group("rough", lambda d: _glass(d, 0.4, 0.98, _alpha(d, 0.1, 0.6), 256)),
+        Group("rough, and a flat view", lambda d: _glass(d, 0.1, 0.25, _alpha(d, 0.6, 1.0), 2048)),
         Group("very many samples", lambda d: _glass(d, 0.3, 0.9, Real(0.0), 16_384)),
     ),
 )
