@@ -85,7 +85,8 @@ void answer_path(const Script& script, const EstimatePlan& plan, TokenWriter& an
     answer.word(plan.most > 0 ? "often" : "once");
     if (plan.most > 0) {
         write_estimates(plan, answer, [&](RandomStream& random) {
-            const auto number = [&] { return static_cast<std::uint32_t>(random.next() * 16777216.0F); };
+            RandomStream same = random;  // of which the step gets all numbers
+            const auto number = [&] { return static_cast<std::uint32_t>(same.next() * 16777216.0F); };
             const std::uint32_t seed = number();
             ScriptedPath tracer(script, RandomStream(seed, number()));
             const Color found = light(tracer, random);
