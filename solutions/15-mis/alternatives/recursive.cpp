@@ -1,4 +1,4 @@
-// The path as a function that calls itself: what a hit sends back is its samples, and its share of all that comes after.
+// The path as a function that calls itself: a hit sends back its samples, and its share of all that comes after.
 #include "steps/15-mis/mis.hpp"
 
 #include <algorithm>
@@ -31,9 +31,8 @@ float disk_pdf(const DiskLight& light, const glm::vec3& from, const glm::vec3& p
     const glm::vec3 back = from - position;
     const float height = glm::dot(light.normal, back);
     const float distance = glm::length(back);
-    return height > 0.0F
-               ? distance * distance * distance / (glm::pi<float>() * light.radius * light.radius * height)
-               : 0.0F;
+    return height > 0.0F ? distance * distance * distance / (glm::pi<float>() * light.radius * light.radius * height)
+                         : 0.0F;
 }
 
 float sphere_pdf(const SphereLight& light, const glm::vec3& from) {
