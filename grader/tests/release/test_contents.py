@@ -19,13 +19,13 @@ from raysteps.report.wording import after_the_last
 # What goes out of the grader. A new room, or a new module in a room of which a part stays, is a decision: may those who
 # solve the steps read it?
 _ROOMS = {
-    ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "play", "play/static",
-    "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission", "toolchain",
+    ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "models", "play",
+    "play/static", "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission", "toolchain",
     "updater", "watch",
 }  # fmt: skip
 _PARTS = {
     "cli": {
-        "app", "check", "compare_pictures", "finale", "inspect", "play", "render", "report", "steps", "todo_steps",
+        "app", "check", "compare_pictures", "convert", "finale", "inspect", "play", "render", "report", "steps", "todo_steps",
         "update", "view", "watch",
     },
     "course": {"manifest", "project", "stubs"},
