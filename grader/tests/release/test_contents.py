@@ -20,13 +20,13 @@ from raysteps.report.wording import after_the_last
 # solve the steps read it?
 _ROOMS = {
     ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "models", "play",
-    "play/static", "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission", "toolchain",
-    "updater", "watch",
+    "play/static", "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission",
+    "toolchain", "updater", "watch",
 }  # fmt: skip
 _PARTS = {
     "cli": {
-        "app", "check", "compare_pictures", "convert", "finale", "inspect", "play", "render", "report", "steps", "todo_steps",
-        "update", "view", "watch",
+        "app", "check", "compare_pictures", "convert", "finale", "inspect", "play", "render", "report", "steps",
+        "todo_steps", "update", "view", "watch",
     },
     "course": {"manifest", "project", "stubs"},
     "grading": {"build_messages", "images", "quick_look", "scoring", "self_check", "step", "unit_tests"},
