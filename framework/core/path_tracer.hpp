@@ -11,8 +11,8 @@ namespace raysteps {
 class PathTracer : public SceneQuery {
 public:
     /// Light that reaches the hit straight from the lamps and leaves it along the ray that arrived: an estimate, right
-    /// on average, with shadows, from samples of the lamps (step 12). Black at a mirror, which shows a lamp or does
-    /// not. What the surface itself sends out is not part of it.
+    /// on average, with shadows, from samples of the lamps (step 12). Black at mirrors and glass, from step 14 on,
+    /// which show a lamp or do not. What the surface itself sends out is not part of it.
     [[nodiscard]] virtual Color light_sample(const HitRecord& hit) = 0;
 
     /// A direction to go on in, as the material wants it. Nothing where the surface takes all light, or by chance.

@@ -148,6 +148,23 @@ TEST_CASE("A hit of a mesh is that of its triangle, whatever step 11 makes of it
     CHECK_THAT(record.eye.hit->hit.normal, IsNear(lean));
 }
 
+TEST_CASE("metal and glass are named", "[inspect]") {
+    const auto text_of = [](const Fill& fill) {
+        Scene scene;
+        scene.camera = {.from = {0, 0, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .width = 3, .height = 3};
+        scene.add(std::make_unique<Sphere>(glm::vec3(0), 1.0F, fill));
+        const auto accelerator = make_accelerator(Acceleration::none, scene.surfaces());
+        return inspect_text(inspect_pixel(scene, scene.camera, *accelerator, Acceleration::none, options_of(14), 1, 1));
+    };
+    Fill fill{.index_of_refraction = 1.5F, .scattering = Scattering::glass};
+    CHECK(text_of(fill).find("shine 1  glass of index 1.5\n") != std::string::npos);
+    fill.roughness = 0.25F;
+    CHECK(text_of(fill).find("glass of index 1.5  roughness 0.25\n") != std::string::npos);
+    fill.scattering = Scattering::metal;
+    CHECK(text_of(fill).find("  metal  roughness 0.25\n") != std::string::npos);
+    CHECK(text_of({.scattering = Scattering::mirror}).find("  polished metal\n") != std::string::npos);
+}
+
 TEST_CASE("a lamp with a size is told by the sum of what it brings", "[inspect]") {
     Scene scene;
     scene.camera = {.from = {0, 0, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .width = 3, .height = 3};

@@ -28,13 +28,32 @@ std::string name_of_surface(const HitTrace& trace) {
     return "surface " + std::to_string(*trace.surface) + " (" + trace.kind + ")";
 }
 
+/// What step 14 makes of it; nothing of a matt surface.
+std::string material_words(const Fill& fill) {
+    std::string text;
+    switch (fill.scattering) {
+        case Scattering::mirror:
+            text = "  polished metal";
+            break;
+        case Scattering::metal:
+            text = "  metal";
+            break;
+        case Scattering::glass:
+            text = "  glass of index " + brief(fill.index_of_refraction);
+            break;
+        case Scattering::diffuse:
+            break;
+    }
+    return fill.roughness > 0.0F ? text + "  roughness " + brief(fill.roughness) : text;
+}
+
 std::string fill_words(const Fill& fill) {
     std::string text = "colour " + brief(fill.color) + "  kd " + brief(fill.kd) + "  ks " + brief(fill.ks);
     text += "  shine " + brief(fill.shine);
     if (fill.transmittance > 0.0F) {
         text += "  transmittance " + brief(fill.transmittance) + "  index " + brief(fill.index_of_refraction);
     }
-    return text;
+    return text + material_words(fill);
 }
 
 void write_hit(TextLines& out, const HitTrace& trace, int level) {

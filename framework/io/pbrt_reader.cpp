@@ -47,6 +47,16 @@ struct Material {
     std::optional<NamedTexture> texture;
 };
 
+/// What a polished metal mirrors straight on, in linear sRGB.
+struct NamedMetal {
+    std::string_view symbol;
+    Color color;
+};
+const std::array<NamedMetal, 4> k_metals{{{"Ag", {0.97F, 0.96F, 0.91F}},
+                                          {"Al", {0.91F, 0.92F, 0.92F}},
+                                          {"Au", {1.0F, 0.77F, 0.34F}},
+                                          {"Cu", {0.95F, 0.64F, 0.54F}}}};
+
 /// What AttributeBegin keeps and AttributeEnd brings back.
 struct State {
     Matrix transform{1.0};
@@ -331,8 +341,19 @@ private:
             const bool coated = kind == "coateddiffuse";
             found.fill.ks = coated ? 0.1F : share(scanner, parameters, "ks", 0.3F);
             found.fill.shine = coated ? 60.0F : parameters.number("shine", 30.0F);
+        } else if (kind == "conductor") {
+            read_metal(scanner, parameters, found.fill);
+            return found;
+        } else if (kind == "dielectric") {
+            found.fill.color = k_white;
+            found.fill.scattering = Scattering::glass;
+            found.fill.index_of_refraction = index_of(scanner, parameters);
+            found.fill.roughness = roughness_of(scanner, parameters);
+            return found;
         } else if (kind != "diffuse") {
-            scanner.fail(parameters.directive(), "a material of the kind \"diffuse\", \"coateddiffuse\" or \"phong\"",
+            scanner.fail(parameters.directive(),
+                         "a material of the kind \"diffuse\", \"coateddiffuse\", \"conductor\", \"dielectric\" or "
+                         "\"phong\"",
                          raysteps::quoted(kind));
         }
         const PbrtParameter* reflectance = parameters.find("reflectance");
@@ -347,6 +368,41 @@ private:
             found.fill.color = parameters.color("reflectance").value_or(found.fill.color);
         }
         return found;
+    }
+
+    // What comes back straight on is a colour, `reflectance`, or that of a metal by name.
+    static void read_metal(const PbrtScanner& scanner, const PbrtParameters& parameters, Fill& fill) {
+        fill.roughness = roughness_of(scanner, parameters);
+        fill.scattering = fill.roughness > 0.0F ? Scattering::metal : Scattering::mirror;
+        if (parameters.find("reflectance") != nullptr) {
+            fill.color = parameters.color("reflectance").value_or(k_white);
+            return;
+        }
+        const std::string eta = parameters.string("eta");
+        const std::string name = eta.empty() ? "metal-Cu-eta" : eta;  // copper, as in pbrt
+        for (const NamedMetal& metal : k_metals) {
+            if (name == "metal-" + std::string(metal.symbol) + "-eta") {
+                fill.color = metal.color;
+                return;
+            }
+        }
+        scanner.fail(parameters.directive(), "`rgb reflectance`, or `spectrum eta` of \"metal-Ag-eta\", Al, Au or Cu",
+                     raysteps::quoted(name));
+    }
+
+    static float index_of(const PbrtScanner& scanner, const PbrtParameters& parameters) {
+        const float index = parameters.number("eta", 1.5F);
+        if (!(index >= 1.0F && index <= 4.0F)) {
+            scanner.fail(parameters.directive(), "`eta` from 1 to 4", "another one");
+        }
+        return index;
+    }
+
+    // By default pbrt's roughness is the square of GGX's. What is nearly smooth is smooth, as there.
+    static float roughness_of(const PbrtScanner& scanner, const PbrtParameters& parameters) {
+        const float roughness = share(scanner, parameters, "roughness", 0.0F);
+        const float alpha = parameters.string("remaproughness") != "false" ? std::sqrt(roughness) : roughness;
+        return alpha < 1e-3F ? 0.0F : alpha;
     }
 
     static float share(const PbrtScanner& scanner, const PbrtParameters& parameters, std::string_view name,

@@ -127,6 +127,35 @@ TEST_CASE("lights and materials", "[pbrt]") {
     CHECK(fill.shine == about(9));
 }
 
+TEST_CASE("metal and glass, smooth and rough", "[pbrt]") {
+    const auto fill_of = [](const std::string& material) {
+        return only<Sphere>(read(k_view + "WorldBegin Material " + material + " Shape \"sphere\"")).fill();
+    };
+    const Fill gold = fill_of(R"("conductor" "spectrum eta" "metal-Au-eta")");
+    CHECK(gold.scattering == Scattering::mirror);
+    CHECK_THAT(gold.color, IsNear({1.0F, 0.77F, 0.34F}));
+    const Fill rough = fill_of(R"("conductor" "rgb reflectance" [.5 .6 .7] "float roughness" .25)");
+    CHECK(rough.scattering == Scattering::metal);
+    CHECK_THAT(rough.color, IsNear({0.5F, 0.6F, 0.7F}));
+    INFO("by default pbrt gives the square of alpha");
+    CHECK(rough.roughness == about(0.5));
+    const Fill glass = fill_of(R"("dielectric" "float eta" 1.7 "float roughness" .25 "bool remaproughness" false)");
+    CHECK(glass.scattering == Scattering::glass);
+    CHECK(glass.index_of_refraction == about(1.7));
+    CHECK(glass.roughness == about(0.25));
+    CHECK(fill_of(R"("dielectric" "float roughness" 1e-7)").roughness == 0.0F);
+}
+
+TEST_CASE("metal and glass that are none", "[pbrt][errors]") {
+    CHECK(error_of("WorldBegin Material \"conductor\" \"spectrum eta\" \"metal-Fe-eta\"") ==
+          "bad.pbrt:1:12: expected `rgb reflectance`, or `spectrum eta` of \"metal-Ag-eta\", Al, Au or Cu, found "
+          "`metal-Fe-eta`");
+    CHECK(error_of("WorldBegin Material \"dielectric\" \"float eta\" 0.5") ==
+          "bad.pbrt:1:12: expected `eta` from 1 to 4, found another one");
+    CHECK(error_of("WorldBegin Material \"dielectric\" \"float roughness\" 2") ==
+          "bad.pbrt:1:12: expected `roughness` from 0 to 1, found another one");
+}
+
 TEST_CASE("area lights last as long as their attributes, and shine to the front", "[pbrt]") {
     const Scene scene = read(k_view + R"(WorldBegin
         AttributeBegin
@@ -238,8 +267,10 @@ TEST_CASE("directives that this kit does not read", "[pbrt][errors]") {
     CHECK(error_of("WorldBegin Shape \"cylinder\"") ==
           "bad.pbrt:1:12: expected a shape of the kind \"trianglemesh\", \"plymesh\", \"objmesh\", \"sphere\" or "
           "\"disk\", found `cylinder`");
-    CHECK(error_of("WorldBegin Material \"metal\"") ==
-          "bad.pbrt:1:12: expected a material of the kind \"diffuse\", \"coateddiffuse\" or \"phong\", found `metal`");
+    CHECK(
+        error_of("WorldBegin Material \"metal\"") ==
+        "bad.pbrt:1:12: expected a material of the kind \"diffuse\", \"coateddiffuse\", \"conductor\", \"dielectric\" "
+        "or \"phong\", found `metal`");
     CHECK(error_of("WorldBegin LightSource \"spot\"") ==
           "bad.pbrt:1:12: expected a light of the kind \"point\" or \"distant\", or \"infinite\" of one colour, found "
           "`spot`");

@@ -60,7 +60,7 @@ struct Travel<glm::vec3> : Packed<glm::vec3, 3 * sizeof(float)> {};
 template <>
 struct Travel<Ray> : Packed<Ray, 6 * sizeof(float)> {};
 template <>
-struct Travel<Fill> : Packed<Fill, 11 * sizeof(float)> {};
+struct Travel<Fill> : Packed<Fill, 13 * sizeof(float)> {};
 template <>
 struct Travel<Box> : Packed<Box, 6 * sizeof(float)> {};
 template <>

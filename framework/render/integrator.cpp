@@ -77,7 +77,7 @@ private:
 
 std::unique_ptr<Integrator> make_integrator(const Scene& scene, RayCounter& rays, const StepOptions& options) {
     if (options.step >= 13 && is_of_part_two(options.step)) {
-        return std::make_unique<PathIntegrator>(scene, rays);
+        return std::make_unique<PathIntegrator>(scene, rays, options.step);
     }
     switch (options.step) {
         case 1:

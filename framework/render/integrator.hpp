@@ -31,9 +31,10 @@ struct SampleId {
     std::uint32_t pixel = 0;  ///< another number for each pixel of each picture
     std::uint32_t index = 0;  ///< among the samples of the pixel, below 65536
 
-    /// Of its streams, one that is independent of all others. number < 65536
+    /// Of its streams, one that is independent of all others. Numbers from 65536 on, of scenes with as many lamps, are
+    /// those of another pixel, far away in the odd steps of the golden ratio.
     [[nodiscard]] RandomStream stream(std::uint32_t number) const {
-        return RandomStream(pixel, (index << 16U) + number);
+        return RandomStream(pixel + (number >> 16U) * 0x9E3779B9U, (index << 16U) + (number & 0xFFFFU));
     }
 };
 

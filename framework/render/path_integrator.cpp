@@ -2,6 +2,7 @@
 
 #include "core/path_tracer.hpp"
 #include "steps/13-path-tracing/path_tracing.hpp"
+#include "steps/14-materials/materials.hpp"
 
 namespace raysteps {
 
@@ -23,6 +24,10 @@ public:
     }
 
     [[nodiscard]] Color light_sample(const HitRecord& hit) override {
+        const Scattering scattering = scattering_of(hit);
+        if (scattering == Scattering::mirror || scattering == Scattering::glass) {
+            return k_black;
+        }
         Color color = integrator_.direct_.at(hit, next_.from);
         for (std::size_t light = 0; light < integrator_.scene().area_lights.size(); ++light) {
             color += integrator_.direct_.of_area_light(light, hit, next_.from, integrator_.next_stream().next_2d());
@@ -32,12 +37,26 @@ public:
 
     [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& hit) override {
         RandomStream random = integrator_.next_stream();
+        switch (scattering_of(hit)) {
+            case Scattering::mirror:
+                return scatter_mirror(hit);
+            case Scattering::metal:
+                return scatter_metal(hit, random.next_2d());
+            case Scattering::glass:
+                return scatter_glass(hit, random);
+            case Scattering::diffuse:
+                break;
+        }
         return scatter_diffuse(hit, random.next_2d());
     }
 
     [[nodiscard]] Color background() const override { return integrator_.scene().background; }
 
 private:
+    [[nodiscard]] Scattering scattering_of(const HitRecord& hit) const {
+        return integrator_.has_materials_ ? hit.fill.scattering : Scattering::diffuse;
+    }
+
     [[nodiscard]] RayCounter& rays() const { return integrator_.rays(); }
     void go_on() const { next_ = {.kind = RayKind::reflected, .depth = next_.depth + 1, .from = rays().last_sent()}; }
 

@@ -7,7 +7,9 @@ namespace raysteps {
 
 class PathIntegrator final : public Integrator {
 public:
-    PathIntegrator(const Scene& scene, RayCounter& rays) : Integrator(scene, rays), direct_(scene, rays) {}
+    /// Before step 14 all surfaces are diffuse.
+    PathIntegrator(const Scene& scene, RayCounter& rays, int step)
+        : Integrator(scene, rays), direct_(scene, rays, step >= 14), has_materials_(step >= 14) {}
 
 private:
     class Path;
@@ -15,6 +17,7 @@ private:
     [[nodiscard]] Color color_of(const Ray& ray) override;
 
     DirectLight direct_;
+    bool has_materials_;
 };
 
 }  // namespace raysteps

@@ -1,5 +1,6 @@
 // Paths by the reference's steps, in scenes whose light is known in closed form.
 #include "render/integrator.hpp"
+#include "steps/14-materials/materials.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -36,9 +37,9 @@ FakeScene bowl(float albedo) {
 }
 
 /// The mean light of many paths along the ray.
-Color mean_light(const SceneQuery& query, const Scene& scene, const Ray& ray, int paths) {
+Color mean_light(const SceneQuery& query, const Scene& scene, const Ray& ray, int paths, int step = 13) {
     RayCounter rays(query);
-    const auto integrator = make_integrator(scene, rays, {.step = 13});
+    const auto integrator = make_integrator(scene, rays, {.step = step});
     Color sum(0.0F);
     for (int number = 0; number < paths; ++number) {
         sum += integrator->primary_color(ray, {.pixel = 13, .index = static_cast<std::uint32_t>(number)});
@@ -48,14 +49,22 @@ Color mean_light(const SceneQuery& query, const Scene& scene, const Ray& ray, in
 
 const Ray k_down{{0.1F, 3.0F, 0.2F}, {0.0F, -1.0F, 0.0F}};
 
+/// The unit sphere.
+FakeScene ball_of(const Fill& fill) {
+    return FakeScene([fill](const Ray& ray) { return Sphere(glm::vec3(0.0F), 1.0F, fill).intersect(ray); });
+}
+
+/// White metal, as rough as that.
+Fill metal(float roughness) {
+    return {.scattering = roughness > 0.0F ? Scattering::metal : Scattering::mirror, .roughness = roughness};
+}
+
 }  // namespace
 
 TEST_CASE("Paths: a ball below an even sky sends out its share of the sky's light", "[render][paths]") {
     Scene scene;
     scene.background = Color(1.0F, 0.5F, 2.0F);
-    const FakeScene ball([](const Ray& ray) {
-        return Sphere(glm::vec3(0.0F), 1.0F, Fill{.color = Color(0.6F), .kd = 0.5F}).intersect(ray);
-    });
+    const FakeScene ball = ball_of({.color = Color(0.6F), .kd = 0.5F});
     INFO("no path comes back to a ball, and each brings the same: there is no noise");
     CHECK_THAT(mean_light(ball, scene, k_down, 50), IsNear(0.3F * scene.background));
 }
@@ -94,4 +103,52 @@ TEST_CASE("Paths: a lamp is seen, and lights what is below it by its samples", "
     INFO("straight below a disk: albedo * radiance * r^2 / (r^2 + h^2), and the black lamp sends nothing back");
     const Ray down{{0.0F, 0.9F, 0.0F}, {0.0F, -1.0F, 0.0F}};
     CHECK(mean_light(floor_and_lamp, scene, down, 20000).x == about(0.5 * 4.0 * 0.2, 0.01));
+}
+
+TEST_CASE("Paths: neither clear glass nor a white mirror is seen below a sky of 1", "[render][paths]") {
+    Scene scene;
+    scene.background = k_white;
+    const Fill glass{.index_of_refraction = 1.5F, .scattering = Scattering::glass};
+    CHECK(mean_light(ball_of(glass), scene, k_down, 4000, 14).x == about(1.0, 0.01));
+    CHECK(mean_light(ball_of(metal(0.0F)), scene, k_down, 4, 14).x == about(1.0));
+    INFO("before step 14 all is matt");
+    CHECK(mean_light(ball_of({.color = Color(0.25F), .scattering = Scattering::glass}), scene, k_down, 4).x ==
+          about(0.25));
+}
+
+TEST_CASE("Paths: the roughest metal, seen from above, sends back 1 - ln 2 of the sky", "[render][paths]") {
+    Scene scene;
+    scene.background = k_white;
+    const Ray straight{{0.0F, 3.0F, 0.0F}, {0.0F, -1.0F, 0.0F}};
+    CHECK(mean_light(ball_of(metal(1.0F)), scene, straight, 20000, 14).x == about(1.0 - std::log(2.0), 0.03));
+}
+
+TEST_CASE("Paths: rough metal gets light from points and from lamps by its own law", "[render][paths]") {
+    Scene scene;
+    const Fill fill = metal(0.5F);
+    const glm::vec3 above(0.0F, 1.0F, 0.0F);
+    const FakeScene floor([&fill](const Ray& ray) -> std::optional<HitRecord> {
+        if (ray.direction.y >= 0.0F) {
+            return std::nullopt;
+        }
+        HitRecord hit = hit_of(ray, -ray.origin.y / ray.direction.y, {0.0F, 1.0F, 0.0F}, 1.0F);
+        hit.fill = fill;
+        return hit;
+    });
+    const Ray down{{0.0F, 3.0F, 0.0F}, {0.0F, -1.0F, 0.0F}};
+    scene.lights = {{4.0F * above, Color(2.0F)}};
+    INFO("the view and the light are both straight above: pi f, f = D / 4");
+    CHECK(mean_light(floor, scene, down, 1, 14).x == about(2.0 / (4.0 * 0.25)));
+
+    scene.lights.clear();
+    scene.area_lights.push_back({DiskLight{.center = above, .normal = -above, .radius = 1.0F}, Color(3.0F)});
+    const HitRecord hit = floor.closest_hit(down).value();
+    double by_directions = 0.0;
+    constexpr int k_paths = 20000;
+    for (std::uint32_t number = 0; number < k_paths; ++number) {
+        const auto sample = scatter_metal(hit, RandomStream(14, number).next_2d());
+        const bool meets_lamp = sample && sample->direction.y * sample->direction.y > 0.5F;  // below 45 degrees
+        by_directions += meets_lamp ? static_cast<double>(sample->weight.x) * 3.0 / k_paths : 0.0;
+    }
+    CHECK(mean_light(floor, scene, down, k_paths, 14).x == about(by_directions, 0.03));
 }

@@ -79,15 +79,24 @@ private:
 };
 
 /// Calls estimate(random) with one stream after the other, many at once where it waits for a box. Stops when the mean
-/// is known to the plan's precision. Then the first stream once more: the answer ends with what it gave first and last.
+/// is known to the plan's precision. The first few streams are asked before it and once more behind it: the answer ends
+/// with what they gave together, first and last.
 template <typename MakeEstimate>
 void write_estimates(const EstimatePlan& plan, TokenWriter& answer, const MakeEstimate& estimate) {
     const auto at = [&](int number) {
         RandomStream random(plan.seed, static_cast<std::uint32_t>(number));
         return estimate(random);
     };
+    const auto first_few = [&at] {
+        constexpr int k_few = 16;
+        Color sum = k_black;
+        for (int number = 0; number < k_few; ++number) {
+            sum += at(number).value;
+        }
+        return sum;
+    };
     EstimateSums sums;
-    const Estimate first = at(0);
+    const Color first = first_few();
     constexpr double k_batches = EstimateSums::k_batches;
     double wanted = 8 * k_batches;
     while (sums.count() < plan.most) {
@@ -105,7 +114,7 @@ void write_estimates(const EstimatePlan& plan, TokenWriter& answer, const MakeEs
         wanted = sums.count() * std::clamp(1.05 * above * above, 1.25, 4.0);  // an error falls with the root of it
     }
     sums.write(answer);
-    answer.vector(first.value).vector(at(0).value);
+    answer.vector(first).vector(first_few());
 }
 
 }  // namespace raysteps

@@ -17,6 +17,7 @@ FunctionTable all_functions() {
     add_meshes(functions);
     add_soft_light(functions);
     add_paths(functions);
+    add_materials(functions);
     return functions;
 }
 

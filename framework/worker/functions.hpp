@@ -18,6 +18,7 @@ void add_sampling(FunctionTable& functions);
 void add_meshes(FunctionTable& functions);
 void add_soft_light(FunctionTable& functions);
 void add_paths(FunctionTable& functions);
+void add_materials(FunctionTable& functions);
 
 /// For solutions/NN-name/worker.cpp of a step that the kit does not know: offers a function before main begins. Always
 /// true.

@@ -6,22 +6,13 @@
 #include <utility>
 
 #include "steps/13-path-tracing/path_tracing.hpp"
+#include "worker/draws.hpp"
 #include "worker/estimates.hpp"
 #include "worker/functions.hpp"
 #include "worker/protocol.hpp"
 
 namespace raysteps {
 namespace {
-
-/// Writes what draw(u) gives for as many points of the unit square as asked for.
-template <typename Draw>
-void draw_often(TokenReader& words, const Draw& draw) {
-    const auto seed = static_cast<std::uint32_t>(words.whole());
-    RandomStream random(seed);
-    for (int left = words.count(); left > 0; --left) {
-        draw(random.next_2d());
-    }
-}
 
 void ask_cosine_direction(TokenReader& words, TokenWriter& answer) {
     const glm::vec3 normal = words.vector();

@@ -54,6 +54,7 @@ _DIAGRAMS = {
     "12-disk": sampling.disk,
     "12-lens": sampling.lens,
     "12-penumbra": sampling.penumbra,
+    "14-visible": sampling.visible,
 }
 _CURVES = {
     "03-highlight": plots.highlight,

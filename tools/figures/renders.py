@@ -73,6 +73,9 @@ SHOTS = {
     "12-focus": Shot("lessons/lens.pbrt", ("--step", "12", "--samples", "256")),
     "13-before": Shot("lessons/cornell.pbrt", ("--step", "12", "--samples", "64"), _SQUARE),
     "13-after": Shot("lessons/cornell.pbrt", ("--step", "13", "--samples", "256"), _SQUARE),
+    "14-before": Shot("lessons/metals.pbrt", ("--step", "13", "--samples", "256")),
+    "14-after": Shot("lessons/metals.pbrt", ("--step", "14", "--samples", "256")),
+    "14-glass": Shot("lessons/glass-balls.pbrt", ("--step", "14", "--samples", "256")),
     "09-after": Shot("generated/mountain", ("--step", "9", "--accel", "bvh")),
 }
 

@@ -1,4 +1,4 @@
-"""Steps 10, 12 and 13: where samples lie, in a pixel and on lamps, what they are worth, what a screen is sent, and
+"""Steps 10 and 12 to 14: where samples lie, in a pixel and on lamps, what they are worth, what a screen is sent, and
 where paths go."""
 
 import math
@@ -331,4 +331,57 @@ def path() -> Drawing:
     )
     for number, (line, color) in enumerate(words):
         figure.text((466, 78 + 26 * number + (12 if number > 2 else 0)), line, f"small {color}".strip())
+    return figure
+
+
+# Step 14: what a view sees of a rough surface.
+
+
+def visible() -> Drawing:
+    """The surface squeezed and stretched; seen from the side."""
+    figure = Drawing(
+        640,
+        320,
+        "Visible normals",
+        "On the left half an ellipse: the bumps of a rough surface, seen from a flat angle. On the right the same, "
+        "stretched until it is half a circle, seen from its stretched view. Across the view lies a disk, whose upper "
+        "half is full and whose lower half is squeezed, as the ground cuts it off. Points of the disk are lifted along "
+        "the view to the circle; arrows from the middle to the lifted points are the normals that are seen.",
+    )
+    radius, ground, alpha = 120.0, 226.0, 0.45
+    flat, round_ = (150.0, ground), (470.0, ground)
+    lean = math.radians(62.0)  # of the view, from straight up; stretched it is steeper
+    stretched = math.atan(alpha * math.tan(lean))
+    for middle, height, angle in ((flat, alpha, lean), (round_, 1.0, stretched)):
+        figure.rect((middle[0] - 140, ground), 280, 14, "w-grey")
+        outline = [
+            (polar(middle, 3 * i, radius)[0], ground - radius * height * math.sin(math.radians(3 * i)))
+            for i in range(61)
+        ]
+        figure.curve(outline)
+        figure.line((middle[0] - 140, ground), (middle[0] + 140, ground), "muted")
+        figure.arrow(middle, polar(middle, 90 - math.degrees(angle), 185.0 if height < 1 else 215.0), "green thick")
+    sine, cosine = math.sin(stretched), math.cos(stretched)
+    for place in (-0.9, -0.7, -0.5, -0.3, -0.1, 0.1, 0.3, 0.5, 0.7, 0.9):
+        at = place if place > 0 else place * cosine
+        up = math.sqrt(1 - at * at)
+        foot = (round_[0] - radius * at * cosine, ground - radius * at * sine)
+        tip = (foot[0] + radius * up * sine, foot[1] - radius * up * cosine)
+        figure.line(foot, tip, "muted thin dash")
+        figure.dot(foot, "red", 2.5)
+        figure.arrow(round_, tip, "blue thin")
+        x, z = alpha * (tip[0] - round_[0]) / radius, (ground - tip[1]) / radius
+        size = math.hypot(x, z)
+        start = (flat[0] + tip[0] - round_[0], ground - alpha * (ground - tip[1]))
+        figure.arrow(start, (start[0] + 34 * x / size, start[1] - 34 * z / size), "blue thin")
+    figure.line(
+        (round_[0] - radius * cosine, ground - radius * sine),
+        (round_[0] + radius * cosine * cosine, ground + radius * sine * cosine),
+        "red",
+    )
+    figure.text((28, 34), "the surface's bumps, and their normals", "small t-blue")
+    figure.text((340, 34), "stretched: a half sphere", "small t-blue")
+    figure.text((272, 136), "view", "small t-green")
+    figure.text((590, 46), "view", "small t-green")
+    figure.text((556, 306), "seen of it: half a disk, and half a disk that is squeezed", "small t-red", "end")
     return figure

@@ -108,7 +108,7 @@ def test_a_bad_file_is_refused_with_the_place_of_what_is_wrong(
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ('title = "x"\nsteps = "1-14"', ":2:1: steps: there is no step '14'"),
+        ('title = "x"\nsteps = "1-19"', ":2:1: steps: there is no step '19'"),
         ('[steps]\n"1-2" = 2026-10-12\n"2-3,77" = 2026-10-13', ":3:1: steps: there is no step '77'"),
     ],
 )

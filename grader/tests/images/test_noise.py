@@ -18,6 +18,7 @@ from raysteps.images.noise import (
 )
 
 _HEIGHT, _WIDTH, _SAMPLES, _MORE = 30, 44, 16, 4
+_SIZE = (_WIDTH, _HEIGHT)
 _MAX_NOISE = 2.0
 
 
@@ -47,13 +48,13 @@ def _reference(rng: np.random.Generator) -> Estimates:
 
 def test_right_pictures_pass(rng: np.random.Generator) -> None:
     for _ in range(60):
-        verdict = compare_estimates(_drawn(rng, _scene(), _SAMPLES), _reference(rng), _MORE, _MAX_NOISE)
+        verdict = compare_estimates(_drawn(rng, _scene(), _SAMPLES), _reference(rng), _SIZE, _MORE, _MAX_NOISE)
         assert verdict.passed, verdict.message
 
 
 @pytest.mark.parametrize("factor", [0.9, 1.1])
 def test_a_picture_that_is_a_little_too_dark_or_bright_is_found(rng: np.random.Generator, factor: float) -> None:
-    verdict = compare_estimates(_drawn(rng, factor * _scene(), _SAMPLES), _reference(rng), _MORE, _MAX_NOISE)
+    verdict = compare_estimates(_drawn(rng, factor * _scene(), _SAMPLES), _reference(rng), _SIZE, _MORE, _MAX_NOISE)
     assert not verdict.passed
     assert ("too dark" if factor < 1 else "too bright") in verdict.message
 
@@ -61,7 +62,7 @@ def test_a_picture_that_is_a_little_too_dark_or_bright_is_found(rng: np.random.G
 def test_a_small_part_that_is_wrong_is_found_where_it_is(rng: np.random.Generator) -> None:
     light = _scene()
     light[16:24, 24:32] *= 0.5
-    verdict = compare_estimates(_drawn(rng, light, _SAMPLES), _reference(rng), _MORE, _MAX_NOISE)
+    verdict = compare_estimates(_drawn(rng, light, _SAMPLES), _reference(rng), _SIZE, _MORE, _MAX_NOISE)
     assert not verdict.passed
     assert verdict.wrong_share == pytest.approx(1 / 24)
     assert "around x=28, y=20" in verdict.message
@@ -76,7 +77,7 @@ def test_a_small_part_that_is_wrong_is_found_where_it_is(rng: np.random.Generato
 def test_a_picture_that_is_right_but_far_noisier_does_not_pass(rng: np.random.Generator) -> None:
     right = _reference(rng)
     noisy = _drawn(rng, _scene(), _SAMPLES, shape=0.2)
-    verdict = compare_estimates(noisy, right, _MORE, _MAX_NOISE)
+    verdict = compare_estimates(noisy, right, _SIZE, _MORE, _MAX_NOISE)
     assert (verdict.passed, verdict.wrong_share) == (False, 0.0)
     assert "too noisy: its variance is " in verdict.message
     assert noise_ratio(_drawn(rng, _scene(), _SAMPLES), right, _MORE) == pytest.approx(1.0, abs=0.25)
@@ -87,7 +88,7 @@ def test_no_noise_is_wild_enough_to_hide_all_light(rng: np.random.Generator) -> 
     height, width, channels = _scene().shape
     samples = 1e4 * rng.choice([-1.0, 1.0], (_SAMPLES, height, width, channels))
     wild = Estimates(samples.mean(axis=0), samples.var(axis=0, ddof=1) / _SAMPLES)
-    verdict = compare_estimates(wild, _reference(rng), _MORE, _MAX_NOISE)
+    verdict = compare_estimates(wild, _reference(rng), _SIZE, _MORE, _MAX_NOISE)
     assert not verdict.passed
     assert verdict.wrong_share > 0.9
     assert "too noisy" not in verdict.message
@@ -96,7 +97,7 @@ def test_no_noise_is_wild_enough_to_hide_all_light(rng: np.random.Generator) -> 
 def test_channels_that_changed_places_are_shown_where_they_are(rng: np.random.Generator) -> None:
     light = _scene()
     light[8:16, 8:16] = light[8:16, 8:16][..., ::-1]
-    verdict = compare_estimates(_drawn(rng, light, _SAMPLES), _reference(rng), _MORE, _MAX_NOISE)
+    verdict = compare_estimates(_drawn(rng, light, _SAMPLES), _reference(rng), _SIZE, _MORE, _MAX_NOISE)
     assert "around x=12, y=12" in verdict.message
 
 
@@ -110,25 +111,25 @@ def test_rare_light_that_never_comes_is_not_taken_for_sure(rng: np.random.Genera
 
     right = drawn(_MORE * 16, 1e-3).in_parts()
     without = Estimates(light, np.zeros_like(light))
-    part = compare_estimates(without, right, _MORE, _MAX_NOISE)
+    part = compare_estimates(without, right, (16, 16), _MORE, _MAX_NOISE)
     assert part.passed, part.message
     many = drawn(256 * 16, 1e-3).in_parts()
-    assert not compare_estimates(Estimates(light, light * 0), many, 1, _MAX_NOISE).passed
+    assert not compare_estimates(Estimates(light, light * 0), many, (16, 16), 1, _MAX_NOISE).passed
 
 
 def test_without_any_noise_only_rounding_may_differ() -> None:
     still = Estimates(_scene(), np.zeros_like(_scene()))
-    assert compare_estimates(still, still.in_parts(), _MORE, _MAX_NOISE).passed
+    assert compare_estimates(still, still.in_parts(), _SIZE, _MORE, _MAX_NOISE).passed
     near = Estimates(1.0005 * _scene(), still.variance)
-    assert compare_estimates(near, still.in_parts(), _MORE, _MAX_NOISE).passed
+    assert compare_estimates(near, still.in_parts(), _SIZE, _MORE, _MAX_NOISE).passed
     off = Estimates(1.01 * _scene(), still.variance)
-    assert not compare_estimates(off, still.in_parts(), _MORE, _MAX_NOISE).passed
+    assert not compare_estimates(off, still.in_parts(), _SIZE, _MORE, _MAX_NOISE).passed
 
 
 def test_no_variance_is_negative(rng: np.random.Generator) -> None:
     mine = _drawn(rng, _scene(), _SAMPLES)
     mine.variance[2, 5, 0] = -1e9
-    assert "no finite number" in compare_estimates(mine, _reference(rng), _MORE, _MAX_NOISE).message
+    assert "no finite number" in compare_estimates(mine, _reference(rng), _SIZE, _MORE, _MAX_NOISE).message
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
@@ -136,14 +137,17 @@ def test_what_is_no_finite_number_is_wrong(rng: np.random.Generator, bad: float)
     for field in ("mean", "variance"):
         mine = _drawn(rng, _scene(), _SAMPLES)
         getattr(mine, field)[3, 7, 1] = bad
-        verdict = compare_estimates(mine, _reference(rng), _MORE, _MAX_NOISE)
+        verdict = compare_estimates(mine, _reference(rng), _SIZE, _MORE, _MAX_NOISE)
         assert not verdict.passed
         assert "no finite number; the first is x=7, y=3" in verdict.message
 
 
-def test_another_size_is_wrong(rng: np.random.Generator) -> None:
-    mine = _drawn(rng, np.ones((8, 8, 3)), _SAMPLES)
-    assert "another size: 8x8" in compare_estimates(mine, _reference(rng), _MORE, _MAX_NOISE).message
+@pytest.mark.parametrize(("rows", "columns"), [(8, 8), (_HEIGHT - 1, _WIDTH), (_HEIGHT, _WIDTH + 1)])
+def test_another_size_is_wrong(rng: np.random.Generator, rows: int, columns: int) -> None:
+    """Even where it has as many parts."""
+    mine = _drawn(rng, np.ones((rows, columns, 3)), _SAMPLES)
+    verdict = compare_estimates(mine, _reference(rng), _SIZE, _MORE, _MAX_NOISE)
+    assert f"another size: {columns}x{rows}" in verdict.message
 
 
 def test_parts_have_the_mean_of_their_pixels() -> None:

@@ -1,5 +1,6 @@
 """What a student's program says of the picture that it made."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,15 @@ from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_ppm
 from raysteps.images.noise import Estimates, bytes_of, read_estimates
-from raysteps.images.render import Gate, Rendered, judge_picture, part_of_its_pixels, render, shown_reference
+from raysteps.images.render import (
+    Gate,
+    Rendered,
+    judge_picture,
+    part_of_its_pixels,
+    reference_parts,
+    render,
+    shown_reference,
+)
 from raysteps.sandbox.task import Isolation, Limits, Task, TaskResult
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -97,6 +106,20 @@ def test_a_noisy_picture_is_judged_by_its_light(kit: BuiltKit, tmp_path: Path) -
     assert 0.3 < verdict.wrong_share <= 0.6
     assert 0.0 < _part(kit, step, scene, gate, dark) < _part(kit, step, scene, gate, drawn(4)) <= 0.6
     assert shown_reference(kit, scene, gate).shape == (30, 40, 3)
+
+
+def test_estimates_of_which_only_half_was_kept_are_drawn_again(kit: BuiltKit, tmp_path: Path) -> None:
+    (tmp_path / "bin").symlink_to(kit.folder / "bin")
+    (tmp_path / "pictures").mkdir()
+    kit = replace(kit, folder=tmp_path)
+    gate = Gate(("--step", "11", "--size", "12x9"), max_wrong=0.0, max_noise=2.0, more_samples=4)
+    scene = kit.project.root / next(step for step in kit.of_all_parts().steps if step.index == 11).images[0].scene
+    parts = reference_parts(kit, scene, gate)
+    (kept,) = tmp_path.rglob("*.estimates")
+    whole = kept.read_bytes()
+    kept.write_bytes(whole[:99])
+    assert (reference_parts(kit, scene, gate).mean == parts.mean).all()
+    assert kept.read_bytes() == whole
 
 
 def _part(kit: BuiltKit, step: Step, scene: Path, gate: Gate, made: Rendered) -> float:

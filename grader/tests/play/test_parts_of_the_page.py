@@ -311,7 +311,7 @@ def test_the_page_judges_a_noisy_picture_as_the_grader_does(
     mine = drawn(scene, 16, shape)
     if lost:
         mine.mean[3, 4, 0] = np.nan
-    wanted = compare_estimates(mine, parts, 4, 2.0)
+    wanted = compare_estimates(mine, parts, (27, 20), 4, 2.0)
     rows = np.concatenate([parts.mean, parts.variance], axis=2).reshape(-1, 6).tolist()
     noise = {"width": 27, "height": 20, "most": 2.0, "factor": 4, "parts": rows}
     page = _open(watched, server)

@@ -121,12 +121,14 @@ def _whole(parts: Estimates, size: tuple[int, int]) -> Estimates:
     return Estimates(mean, (weights**2 * parts.variance).sum(axis=(0, 1), keepdims=True))
 
 
-def compare_estimates(mine: Estimates, parts: Estimates, factor: float, max_noise: float) -> NoisyComparison:
+def compare_estimates(
+    mine: Estimates, parts: Estimates, size: tuple[int, int], factor: float, max_noise: float
+) -> NoisyComparison:
     """Passes when all means are right but for chance, and the noise is at most `max_noise` times the reference's.
-    `parts`: the reference's, of the same scene in parts, with `factor` times as many samples for each pixel. The wrong
-    share is that of the parts."""
-    width, height = mine.size
-    if tuple(-(-side // PART) for side in mine.size) != parts.size:
+    `parts`: the reference's, of the same scene and `size` in parts, with `factor` times as many samples for each pixel.
+    The wrong share is that of the parts."""
+    if mine.size != size:
+        width, height = mine.size
         return NoisyComparison(False, 1.0, f"The picture has another size: {width}x{height} pixels.")
     values = np.concatenate([mine.mean, mine.variance], axis=2)
     lost = ~np.isfinite(values).all(axis=2) | (mine.variance < 0).any(axis=2)

@@ -119,8 +119,9 @@ def _stored_for_nothing(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> fl
         raise UsageError(f"{given.path.with_suffix('.json')}: holds no `for_nothing`; {_AGAIN}") from error
 
 
-def _stored_parts(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Estimates:
-    path = _find(kit, scene, args).path.with_suffix(ESTIMATES)
+def stored_parts(picture: Path) -> Estimates:
+    """The means that lie beside a noisy one."""
+    path = picture.with_suffix(ESTIMATES)
     try:
         return read_estimates(path.read_bytes())
     except (OSError, EstimatesError) as error:
@@ -249,9 +250,17 @@ def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Pixel
 def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estimates:
     """The means of the parts of a noisy picture."""
     if not kit.has_reference:
-        return _stored_parts(kit, scene, gate.args)
-    path = _drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
-    return read_estimates(path.with_suffix(ESTIMATES).read_bytes()).in_parts()
+        return stored_parts(_find(kit, scene, gate.args).path)
+    args = with_samples(gate.args, gate.more_samples)
+
+    def read() -> Estimates:
+        return read_estimates(_drawn(kit, scene, args, estimates=True).with_suffix(ESTIMATES).read_bytes()).in_parts()
+
+    try:
+        return read()
+    except EstimatesError:  # half a file, as after a full disk
+        _kept(kit, scene, args).with_suffix(ESTIMATES).unlink()
+        return read()
 
 
 def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> Comparison:
@@ -259,8 +268,9 @@ def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | Gate, rendered: 
     assert rendered.pixels is not None
     if gate.max_noise is None or rendered.estimates is None:
         return compare(rendered.pixels, reference_picture(kit, scene, gate.args), gate.max_wrong)
+    rows, columns, _ = shown_reference(kit, scene, gate).shape
     parts = reference_parts(kit, scene, gate)
-    return compare_estimates(rendered.estimates, parts, gate.more_samples, gate.max_noise)
+    return compare_estimates(rendered.estimates, parts, (columns, rows), gate.more_samples, gate.max_noise)
 
 
 def part_of_its_pixels(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> float:

@@ -191,6 +191,15 @@ def channels(what: str, expected: Vector, actual: Vector, tolerance: Tolerance =
     return next((problem for problem in problems if problem), "")
 
 
+def number_answer(what: str, tolerance: Tolerance) -> Answer[float]:
+    """One number, compared with the reference's."""
+    return Answer(
+        lambda tokens: tokens.real(),
+        words_of_number,
+        lambda _, expected, actual: real(what, expected, actual, tolerance),
+    )
+
+
 def unit_length(what: str, actual: Vector) -> str:
     if any(math.isnan(x) for x in actual):
         return f"{what} is NaN"

@@ -24,8 +24,8 @@ _MOST = 200_000  # estimates for one case
 
 @dataclass(frozen=True)
 class Estimates:
-    """Of so many independent estimates: what all cost, the means of batches, row by row, and what the first stream gave
-    when it was asked at first and at last."""
+    """Of so many independent estimates: what all cost, the means of batches, row by row, and what the first few streams
+    gave together when they were asked at first and at last."""
 
     size: int  # of each batch
     cost: int

@@ -97,6 +97,7 @@ _MODULES = {
     "11": "meshes",
     "12": "soft_light",
     "13": "path_tracing",
+    "14": "materials",
 }
 
 

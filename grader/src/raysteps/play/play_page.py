@@ -26,7 +26,7 @@ from raysteps.grading.build_messages import missing_message, twice_message, unde
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.noise import read_estimates, with_samples
-from raysteps.images.render import ENDLESS, ESTIMATES, reference_image_path
+from raysteps.images.render import ENDLESS, reference_image_path, stored_parts
 from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import WebKit, headers_path
@@ -333,7 +333,7 @@ class PlayPage:
             args = with_samples(case.args, case.more_samples)
             parts = read_estimates(self._kit.estimates(scene, args).read_bytes()).in_parts()
         else:
-            parts = read_estimates(reference_image_path(self._project, step, case).with_suffix(ESTIMATES).read_bytes())
+            parts = stored_parts(reference_image_path(self._project, step, case))
         rows = np.concatenate([parts.mean, parts.variance], axis=2).reshape(-1, 6)
         width, height = size
         numbers = [[float(f"{number:.7g}") for number in row] for row in rows]

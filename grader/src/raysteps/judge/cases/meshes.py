@@ -11,6 +11,7 @@ from raysteps.judge.answers import (
     direction,
     first,
     itself,
+    number_answer,
     read_vector,
     read_whole,
     real,
@@ -460,11 +461,7 @@ def _without_area(draw: RandomSource) -> Inputs:
 
 _ACROSS = Function(
     "texels_across",
-    Answer(
-        lambda tokens: tokens.real(),
-        words_of_number,
-        lambda _, e, a: real("the number of texels", e, a, Tolerance(1e-4, 5e-3)),
-    ),
+    number_answer("the number of texels", Tolerance(1e-4, 5e-3)),
     (
         Group("any pixel", lambda d: _pixel(d, _laid_out(d), 0.2)),
         Group("straight down", _simple_pixel),
@@ -481,11 +478,7 @@ def _level(texels: float, levels: int) -> Inputs:
 _NO_TEXELS = (0.0, 0.01, 0.3, 0.9, 1.0, math.nan)
 _LEVEL = Function(
     "mip_level",
-    Answer(
-        lambda tokens: tokens.real(),
-        words_of_number,
-        lambda _, e, a: real("the level", e, a, Tolerance(1e-3, 1e-3)),
-    ),
+    number_answer("the level", Tolerance(1e-3, 1e-3)),
     (
         Group("between levels", lambda d: _level(d.logarithmic(1.2, 200), d.whole(9, 12))),
         Group("a power of two", lambda d: _level(2.0 ** d.whole(1, 8), d.whole(9, 12))),

@@ -14,9 +14,17 @@ from raysteps.judge.answers import (
     channels,
     first,
     itself,
-    real,
+    number_answer,
     share_right,
-    words_of_number,
+)
+from raysteps.judge.draws import (
+    Samples,
+    draws,
+    read_directions,
+    read_samples,
+    unit_problem,
+    words_of_directions,
+    words_of_samples,
 )
 from raysteps.judge.estimates import Estimates, estimates_problem, plan, read_estimates, words_of_estimates
 from raysteps.judge.functions import Function, Group
@@ -29,9 +37,7 @@ from raysteps.judge.protocol import (
     TokenReader,
     Vec,
     Whole,
-    f32,
     rounded,
-    text,
     vec_of,
     vector_words,
     whole_of,
@@ -44,20 +50,9 @@ from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform
 # compared with the reference's. Seen from above the tip of such a direction lies anywhere in the unit disk, all places
 # equally likely: the square of its distance from the middle, and its angle, are even.
 
-_UNIT = 1e-4
+_LEVEL = 1e-4
 _FEW, _MANY = 8, 16  # bins for each of the two
 _MANY_DIRECTIONS = 16_384  # from here on the finer bins
-_MOST = 40_000
-
-
-def _unit_problem(directions: Numbers, normal: Vector) -> str:
-    if not np.isfinite(directions).all():
-        return "a direction is NaN"
-    if not (np.abs(np.linalg.norm(directions, axis=1) - 1) <= _UNIT).all():
-        return "a direction does not have length 1"
-    if not (directions @ np.array(normal) >= -_UNIT).all():
-        return "a direction leads below the surface"
-    return ""
 
 
 def _shares(directions: Numbers, normal: Vector) -> Numbers:
@@ -70,9 +65,13 @@ def _shares(directions: Numbers, normal: Vector) -> Numbers:
 
 def _density_problem(directions: Numbers, normal: Vector) -> str:
     """Of one direction nothing can be told: a smallest counterexample has too few."""
-    problem = _unit_problem(directions, normal)
-    if problem or len(directions) < 2:
+    problem = unit_problem(directions)
+    if problem:
         return problem
+    if not (directions @ np.array(normal) >= -_LEVEL).all():
+        return "a direction leads below the surface"
+    if len(directions) < 2:
+        return ""
     shares = _shares(directions, normal)
     bins = _MANY if len(directions) >= _MANY_DIRECTIONS else _FEW
     heights, turns = shares[:, 0], shares[:, 1]
@@ -85,35 +84,14 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     return "" if is_uniform(shares, bins) else "height and side of a direction have to do with each other"
 
 
-def _read_directions(tokens: TokenReader) -> Numbers:
-    found: list[Vector] = []
-    while not tokens.at_end() and len(found) <= _MOST:
-        found.append(tokens.vector())
-    return np.array(found, dtype=np.float64).reshape(-1, 3)
-
-
-def _words_of_directions(directions: Numbers) -> str:
-    shown = ", ".join(_words(direction) for direction in directions[:4])
-    return f"{len(directions)} directions, first {shown}"
-
-
-def _words(v: Sequence[float] | Numbers) -> str:
-    x, y, z = (float(value) for value in v)
-    return vector_words((x, y, z))
-
-
 def _directions_problem(inputs: Inputs, _expected: Numbers, actual: Numbers) -> str:
     if len(actual) != whole_of(inputs, "times"):
         return "no proper answer came"
     return _density_problem(actual, vec_of(inputs, "normal"))
 
 
-def _draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
-    return {"seed": Whole(draw.whole(1, 1_000_000_000)), "times": Whole(amount)}
-
-
 def _directions(draw: RandomSource, normal: Vector, amount: int = 2048) -> Inputs:
-    return {"normal": Vec(normal), **_draws(draw, amount)}
+    return {"normal": Vec(normal), **draws(draw, amount)}
 
 
 def _near_an_axis(draw: RandomSource) -> Vector:
@@ -124,7 +102,7 @@ def _near_an_axis(draw: RandomSource) -> Vector:
 
 _COSINE_DIRECTION = Function(
     "cosine_direction",
-    Answer(_read_directions, _words_of_directions, _directions_problem),
+    Answer(read_directions, words_of_directions, _directions_problem),
     (
         Group("any normal", lambda d: _directions(d, d.direction())),
         Group("along an axis", lambda d: _directions(d, d.axis()), exact=True),
@@ -160,17 +138,9 @@ def _simple_pdf(draw: RandomSource) -> Inputs:
     return _pdf(normal, rounded(add(times(up, normal), next_axis(normal), sine)))
 
 
-def _number_answer(what: str, tolerance: Tolerance) -> Answer[float]:
-    return Answer(
-        lambda tokens: tokens.real(),
-        words_of_number,
-        lambda _, expected, actual: real(what, expected, actual, tolerance),
-    )
-
-
 _COSINE_PDF = Function(
     "cosine_pdf",
-    _number_answer("the density", _DENSITY),
+    number_answer("the density", _DENSITY),
     (
         Group("above the surface", lambda d: _pdf_above(d, 0.05, 0.99)),
         Group("below it", _pdf_below),
@@ -181,37 +151,6 @@ _COSINE_PDF = Function(
 
 
 # What a diffuse surface makes of it.
-
-
-@dataclass(frozen=True)
-class _Samples:
-    """Each row: direction, weight, pdf, 1 where it is specular. `nothing`: so often nothing came."""
-
-    nothing: int
-    rows: Numbers
-
-
-def _read_samples(tokens: TokenReader) -> _Samples:
-    rows: list[list[float]] = []
-    nothing = 0
-    while not tokens.at_end() and len(rows) + nothing <= _MOST:
-        if tokens.flag():
-            rows.append([*tokens.vector(), *tokens.vector(), tokens.real(), float(tokens.flag())])
-        else:
-            nothing += 1
-    return _Samples(nothing, np.array(rows, dtype=np.float64).reshape(-1, 8))
-
-
-def _words_of_samples(samples: _Samples) -> str:
-    shown = [f"nothing {samples.nothing} times"] if samples.nothing else []
-    if len(samples.rows):
-        row = samples.rows[0]
-        shown.append(
-            f"{len(samples.rows)} samples, first direction {_words(row[:3])} weight {_words(row[3:6])} "
-            f"pdf {text(f32(float(row[6])))}{' specular' if row[7] else ''}"
-        )
-    return ", ".join(shown)
-
 
 _WEIGHT = Tolerance(1e-5, 5e-4)
 _STEEP = 0.02  # cosine: below it a float's rounding is too much of it to compare with
@@ -224,32 +163,31 @@ def _of_the_hit(inputs: Inputs) -> tuple[Vector, Vector]:
     return hit.normal, times(hit.fill.kd, hit.fill.color)
 
 
-def _sample_problems(inputs: Inputs, actual: _Samples) -> tuple[str, ...]:
+def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     normal, albedo = _of_the_hit(inputs)
-    if len(actual.rows) + actual.nothing != whole_of(inputs, "times"):
+    if actual.count != whole_of(inputs, "times"):
         return ("no proper answer came",) * 3
     if not any(albedo):
         return ("a surface that sends no light on gives samples",) * 3 if len(actual.rows) else ("", "", "")
     if actual.nothing:
         return ("nothing came from a surface that sends light on",) * 3
-    directions, weights, pdfs = actual.rows[:, :3], actual.rows[:, 3:6], actual.rows[:, 6]
-    cosines = directions @ np.array(normal)
+    cosines = actual.directions @ np.array(normal)
     steep = cosines > _STEEP
     densities = np.maximum(cosines, 0.0) / math.pi
-    right_pdf = bool(np.all(np.abs(pdfs - densities)[steep] <= _DENSITY.absolute + 1e-3 * densities[steep]))
-    gaps = np.abs(weights - np.array(albedo)) <= _WEIGHT.absolute + _WEIGHT.relative * np.array(albedo)
+    right_pdf = bool(np.all(np.abs(actual.pdfs - densities)[steep] <= _DENSITY.absolute + 1e-3 * densities[steep]))
+    gaps = np.abs(actual.weights - np.array(albedo)) <= _WEIGHT.absolute + _WEIGHT.relative * np.array(albedo)
     return (
-        _density_problem(directions, normal),
+        _density_problem(actual.directions, normal),
         "" if gaps.all() else "the weight is not f cos / pdf",
         "" if right_pdf else "the pdf is not that of the direction",
-        "a diffuse surface gives a specular sample" if actual.rows[:, 7].any() else "",
+        "a diffuse surface gives a specular sample" if actual.is_specular_somewhere else "",
     )
 
 
 def _scatter(draw: RandomSource, fill: Fill, normal: Vector, amount: int) -> Inputs:
     along = times(-1, draw.above(normal, 0.05))
     hit = Hit(draw.point(5), normal, along, draw.real(0.5, 9), fill, draw.chance(0.7))
-    return {"hit": hit, **_draws(draw, amount)}
+    return {"hit": hit, **draws(draw, amount)}
 
 
 def _colored(draw: RandomSource) -> Fill:
@@ -271,8 +209,8 @@ def _black(draw: RandomSource) -> Fill:
 _SCATTER_DIFFUSE = Function(
     "scatter_diffuse",
     Answer(
-        _read_samples,
-        _words_of_samples,
+        read_samples,
+        words_of_samples,
         lambda inputs, _expected, actual: first(*_sample_problems(inputs, actual)),
         lambda inputs, _expected, actual: 0.5 * share_right(*_sample_problems(inputs, actual)),
     ),
@@ -306,7 +244,7 @@ def _one_bright(draw: RandomSource) -> Inputs:
 
 _SURVIVAL = Function(
     "survival_probability",
-    _number_answer("the probability", Tolerance(1e-6, 1e-5)),
+    number_answer("the probability", Tolerance(1e-6, 1e-5)),
     (
         Group("any weight", lambda d: _mixed(d, 0.01, 0.94)),
         Group("one channel is bright", _one_bright),
@@ -521,6 +459,22 @@ def _late(draw: RandomSource) -> PathScript:
     return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
 
 
+def _dark_wall(draw: RandomSource) -> PathScript:
+    """The wall behind which roulette begins takes most of the light: so few paths go on from just there."""
+    weights = (*((0.95, 0.98) for _ in range(_SURE)), (0.1, 0.15), (0.3, 0.5))
+    walls = [
+        PathHit(
+            i + 1 + draw.real(0.1, 0.8),
+            draw.direction(),
+            _BLACK,
+            _BLACK,
+            Scatter(draw.direction(), _gray(draw, *share)),
+        )
+        for i, share in enumerate(weights)
+    ]
+    return PathScript(draw.color(0.5, 1.0), goes_on=False, hits=tuple(walls))
+
+
 def _colored_walls(draw: RandomSource) -> PathScript:
     """A channel that is strong, one that is weak."""
     weight = (draw.real(0.75, 0.85), draw.real(0.3, 0.5), draw.real(0.55, 0.7))
@@ -558,6 +512,7 @@ _PATH_LIGHT = Function(
         Group("a furnace", lambda d: _often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: _often(d, _furnace(d, 0.75, 0.8), 0.06)),
         Group("light found late", lambda d: _often(d, _late(d), 0.2)),
+        Group("a dark wall", lambda d: _often(d, _dark_wall(d), 0.3)),
         Group("coloured walls", lambda d: _often(d, _colored_walls(d), 0.08)),
         Group("a hall of mirrors", lambda d: _often(d, _hall_of_mirrors(d), 0.08)),
     ),

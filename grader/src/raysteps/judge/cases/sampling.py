@@ -13,6 +13,7 @@ from raysteps.judge.answers import (
     channels,
     first,
     itself,
+    number_answer,
     read_vector,
     real,
     words_of_number,
@@ -211,11 +212,7 @@ _HALTON = Function(
 
 # Filters, and what becomes of samples.
 
-_WEIGHT = Answer(
-    lambda tokens: tokens.real(),
-    words_of_number,
-    lambda _, expected, actual: real("the weight", expected, actual, Tolerance(2e-5, 2e-5)),
-)
+_WEIGHT = number_answer("the weight", Tolerance(2e-5, 2e-5))
 
 
 def _distance(draw: RandomSource, low: float, high: float) -> Inputs:

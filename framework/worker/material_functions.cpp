@@ -1,0 +1,106 @@
+// Mirrors, glass and rough metal: step 14.
+#include "steps/14-materials/materials.hpp"
+#include "worker/draws.hpp"
+#include "worker/functions.hpp"
+#include "worker/protocol.hpp"
+
+namespace raysteps {
+namespace {
+
+void write_sample(TokenWriter& answer, const std::optional<ScatterSample>& sample) {
+    answer.whole(sample ? 1 : 0);
+    if (sample) {
+        answer.vector(sample->direction).vector(sample->weight).number(sample->pdf);
+        answer.whole(sample->specular ? 1 : 0);
+    }
+}
+
+/// A hit, and how rough it is.
+HitRecord read_rough_hit(TokenReader& words) {
+    HitRecord hit = read_hit(words);
+    hit.fill.roughness = words.number();
+    return hit;
+}
+
+void ask_fresnel_dielectric(TokenReader& words, TokenWriter& answer) {
+    const float cosine = words.number();
+    answer.number(fresnel_dielectric(cosine, words.number()));
+}
+
+void ask_fresnel_schlick(TokenReader& words, TokenWriter& answer) {
+    const Color f0 = words.vector();
+    answer.vector(fresnel_schlick(f0, words.number()));
+}
+
+void ask_scatter_mirror(TokenReader& words, TokenWriter& answer) {
+    write_sample(answer, scatter_mirror(read_hit(words)));
+}
+
+void ask_ggx_distribution(TokenReader& words, TokenWriter& answer) {
+    const glm::vec3 normal = words.vector();
+    answer.number(ggx_distribution(normal, words.number()));
+}
+
+void ask_ggx_lambda(TokenReader& words, TokenWriter& answer) {
+    const glm::vec3 direction = words.vector();
+    answer.number(ggx_lambda(direction, words.number()));
+}
+
+void ask_sample_visible_normal(TokenReader& words, TokenWriter& answer) {
+    const glm::vec3 view = words.vector();
+    const float alpha = words.number();
+    draw_often(words, [&](const glm::vec2& u) { answer.vector(sample_visible_normal(view, alpha, u)); });
+}
+
+void ask_visible_normal_pdf(TokenReader& words, TokenWriter& answer) {
+    const glm::vec3 view = words.vector();
+    const glm::vec3 normal = words.vector();
+    answer.number(visible_normal_pdf(view, normal, words.number()));
+}
+
+void ask_metal_brdf(TokenReader& words, TokenWriter& answer) {
+    const glm::vec3 view = words.vector();
+    const glm::vec3 light = words.vector();
+    const Color f0 = words.vector();
+    answer.vector(metal_brdf(view, light, f0, words.number()));
+}
+
+void ask_metal_pdf(TokenReader& words, TokenWriter& answer) {
+    const glm::vec3 view = words.vector();
+    const glm::vec3 light = words.vector();
+    answer.number(metal_pdf(view, light, words.number()));
+}
+
+void ask_scatter_metal(TokenReader& words, TokenWriter& answer) {
+    const HitRecord hit = read_rough_hit(words);
+    draw_often(words, [&](const glm::vec2& u) { write_sample(answer, scatter_metal(hit, u)); });
+}
+
+/// Each time with a stream of its own, and at last with the first one again.
+void ask_scatter_glass(TokenReader& words, TokenWriter& answer) {
+    const HitRecord hit = read_rough_hit(words);
+    const auto seed = static_cast<std::uint32_t>(words.whole());
+    const int times = words.count();
+    for (int number = 0; number <= times; ++number) {
+        RandomStream random(seed, static_cast<std::uint32_t>(number == times ? 0 : number));
+        write_sample(answer, scatter_glass(hit, random));
+    }
+}
+
+}  // namespace
+
+void add_materials(FunctionTable& functions) {
+    functions["fresnel_dielectric"] = ask_fresnel_dielectric;
+    functions["fresnel_schlick"] = ask_fresnel_schlick;
+    functions["scatter_mirror"] = ask_scatter_mirror;
+    functions["ggx_distribution"] = ask_ggx_distribution;
+    functions["ggx_lambda"] = ask_ggx_lambda;
+    functions["sample_visible_normal"] = ask_sample_visible_normal;
+    functions["visible_normal_pdf"] = ask_visible_normal_pdf;
+    functions["metal_brdf"] = ask_metal_brdf;
+    functions["metal_pdf"] = ask_metal_pdf;
+    functions["scatter_metal"] = ask_scatter_metal;
+    functions["scatter_glass"] = ask_scatter_glass;
+}
+
+}  // namespace raysteps

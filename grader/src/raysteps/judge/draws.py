@@ -1,0 +1,112 @@
+"""What a function that is asked with many random numbers gives: directions, or samples of a path's way on."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from raysteps.common.vectors import Vector
+from raysteps.judge.protocol import TokenReader, Whole, f32, text, vector_words
+from raysteps.judge.random_source import RandomSource
+from raysteps.judge.statistics import Numbers
+
+_MOST = 40_000
+_UNIT = 1e-4
+
+
+def draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
+    """So many random points."""
+    return {"seed": Whole(draw.whole(1, 1_000_000_000)), "times": Whole(amount)}
+
+
+def read_directions(tokens: TokenReader) -> Numbers:
+    """Row by row."""
+    found: list[Vector] = []
+    while not tokens.at_end() and len(found) <= _MOST:
+        found.append(tokens.vector())
+    return np.array(found, dtype=np.float64).reshape(-1, 3)
+
+
+def _words_of(v: Sequence[float] | Numbers) -> str:
+    """Of one direction or colour."""
+    x, y, z = (float(value) for value in v)
+    return vector_words((x, y, z))
+
+
+def words_of_directions(directions: Numbers) -> str:
+    """How many, and the first of them."""
+    shown = ", ".join(_words_of(direction) for direction in directions[:4])
+    return f"{len(directions)} directions, first {shown}"
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Each row: direction, weight, pdf, 1 where it is specular. `nothing`: so often nothing came."""
+
+    nothing: int
+    rows: Numbers
+
+    @property
+    def count(self) -> int:
+        return len(self.rows) + self.nothing
+
+    @property
+    def directions(self) -> Numbers:
+        return np.asarray(self.rows[:, :3])
+
+    @property
+    def weights(self) -> Numbers:
+        return np.asarray(self.rows[:, 3:6])
+
+    @property
+    def pdfs(self) -> Numbers:
+        return np.asarray(self.rows[:, 6])
+
+    @property
+    def are_specular(self) -> bool:
+        return bool((self.rows[:, 7] == 1).all())
+
+    @property
+    def is_specular_somewhere(self) -> bool:
+        return bool(self.rows[:, 7].any())
+
+
+def read_sample(tokens: TokenReader) -> list[float] | None:
+    """One row, or nothing."""
+    if not tokens.flag():
+        return None
+    return [*tokens.vector(), *tokens.vector(), tokens.real(), float(tokens.flag())]
+
+
+def read_samples(tokens: TokenReader) -> Samples:
+    """All that follow."""
+    rows: list[list[float]] = []
+    nothing = 0
+    while not tokens.at_end() and len(rows) + nothing <= _MOST:
+        row = read_sample(tokens)
+        if row is None:
+            nothing += 1
+        else:
+            rows.append(row)
+    return Samples(nothing, np.array(rows, dtype=np.float64).reshape(-1, 8))
+
+
+def words_of_samples(samples: Samples) -> str:
+    """How many, and the first of them."""
+    shown = [f"nothing {samples.nothing} times"] if samples.nothing else []
+    if len(samples.rows):
+        row = samples.rows[0]
+        shown.append(
+            f"{len(samples.rows)} samples, first direction {_words_of(row[:3])} weight {_words_of(row[3:6])} "
+            f"pdf {text(f32(float(row[6])))}{' specular' if row[7] else ''}"
+        )
+    return ", ".join(shown)
+
+
+def unit_problem(directions: Numbers) -> str:
+    """Whether all are numbers, and of unit length."""
+    if not np.isfinite(directions).all():
+        return "a direction is NaN"
+    if not (np.abs(np.linalg.norm(directions, axis=1) - 1) <= _UNIT).all():
+        return "a direction does not have length 1"
+    return ""
