@@ -168,7 +168,7 @@ def test_a_first_step_without_pictures(steps: list[Step]) -> None:
 def test_words_for_one_kind_of_kit() -> None:
     text = (
         "# A\n\nOne<!-- whole kit --> or `--impl reference`<!-- end -->.\n\n<!-- whole kit -->\nTwo\n\n```\nx\n```\n"
-        "<!-- end -->\n<!-- students' kit:\nThree\nand four.\n-->\n\n- five<!-- students' kit: , six -->\n"
+        "<!-- end -->\n<!-- students' kit:\nThree\nand four.\n-->\n\n- five<!-- students'\n  kit: , six -->\n"
         "\n| a | b<!-- whole kit --> |\n| c | d<!-- end --> |\n| e | f |\n\n```\ny\n\n\n\nz\n```\n"
     )
     assert for_students("a.md", text) == (
