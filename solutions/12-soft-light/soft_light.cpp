@@ -56,7 +56,7 @@ float solid_angle_pdf(float area_pdf, const glm::vec3& from, const glm::vec3& po
 
 LightSample sample_triangle(const TriangleLight& light, const glm::vec3& from, const glm::vec2& u) {
     // BEGIN SOLUTION sample_triangle
-    // TODO: Choose weights of the corners by which all places are equally likely; the density is 1 / area.
+    // TODO: Choose weights of the corners by which all places are equally likely: 1 / area, by area.
     // RETURN LightSample{light.a}
     const float root = std::sqrt(u.x);
     const glm::vec3 position = (1.0F - root) * light.a + root * (1.0F - u.y) * light.b + root * u.y * light.c;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "core/random_stream.hpp"
 #include "testing/testing.hpp"
@@ -40,6 +41,8 @@ void with_corners(const std::function<void(const glm::vec2&)>& see) {
 /// In how many of so many equal parts of the range from 0 to 1 each number falls.
 class Shares {
 public:
+    explicit Shares(std::string_view part) : name_(part) {}
+
     void add(float number) {
         const int part = static_cast<int>(std::floor(number * static_cast<float>(k_parts)));
         if (part >= 0 && part < k_parts) {
@@ -52,13 +55,15 @@ public:
         constexpr double k_share = 1.0 / k_parts;
         const double deviation = std::sqrt(k_share * (1.0 - k_share) / k_many);
         for (std::size_t part = 0; part < found_.size(); ++part) {
-            CAPTURE(part);
-            CHECK(static_cast<double>(found_.at(part)) / k_many == Approx(k_share).margin(7.0 * deviation));
+            INFO(name_ << ", number " << part + 1 << " of 8: an eighth of the points should be there");
+            const double share_of_the_points = static_cast<double>(found_.at(part)) / k_many;
+            CHECK(share_of_the_points == Approx(k_share).margin(7.0 * deviation));
         }
     }
 
 private:
     static constexpr int k_parts = 8;
+    std::string_view name_;
     std::array<int, k_parts> found_{};
 };
 
@@ -141,9 +146,9 @@ TEST_CASE("unit_disk: points lie in the disk", "[12-soft-light][unit_disk]") {
 }
 
 TEST_CASE("unit_disk: equal rings and equal slices get equally many", "[12-soft-light][unit_disk]") {
-    Shares rings;
-    Shares slices;
-    Shares differences;
+    Shares rings("rings of equal areas, from the middle");
+    Shares slices("slices of equal angles");
+    Shares differences("one number beside the other");
     with_many([&](const glm::vec2& u) {
         const glm::vec2 point = unit_disk(u);
         rings.add(glm::dot(point, point) * 0.99999F);
@@ -172,9 +177,9 @@ TEST_CASE("cap_direction: unit vectors, no lower than the cap", "[12-soft-light]
 TEST_CASE("cap_direction: equal solid angles get equally many", "[12-soft-light][cap_direction]") {
     for (const float height : {2.0F, 0.5F}) {
         CAPTURE(height);
-        Shares heights;
-        Shares slices;
-        Shares differences;
+        Shares heights("heights of the cap, from its top");
+        Shares slices("slices of equal angles");
+        Shares differences("one number beside the other");
         with_many([&](const glm::vec2& u) {
             const glm::vec3 direction = cap_direction(height, u);
             heights.add((1.0F - direction.z) / height * 0.99999F);
@@ -230,7 +235,9 @@ TEST_CASE("sample_triangle: on the triangle, with its normal", "[12-soft-light][
 }
 
 TEST_CASE("sample_triangle: equal areas get equally many", "[12-soft-light][sample_triangle]") {
-    std::array<Shares, 3> corners;
+    std::array corners{Shares("strips of equal areas, from the first corner"),
+                       Shares("strips of equal areas, from the second corner"),
+                       Shares("strips of equal areas, from the third corner")};
     with_many([&](const glm::vec2& u) {
         const glm::vec3 place = sample_triangle(k_triangle, {1.0F, 9.0F, 1.0F}, u).position;
         const float c = place.x / 4.0F;
@@ -240,9 +247,8 @@ TEST_CASE("sample_triangle: equal areas get equally many", "[12-soft-light][samp
         corners[1].add((1.0F - b) * (1.0F - b) * 0.99999F);
         corners[2].add((1.0F - c) * (1.0F - c) * 0.99999F);
     });
-    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-        CAPTURE(corner);
-        corners.at(corner).check_even();
+    for (const Shares& corner : corners) {
+        corner.check_even();
     }
 }
 
@@ -274,8 +280,8 @@ TEST_CASE("sample_disk: on the disk, with its normal and density", "[12-soft-lig
 }
 
 TEST_CASE("sample_disk: equal areas get equally many", "[12-soft-light][sample_disk]") {
-    Shares rings;
-    Shares slices;
+    Shares rings("rings of equal areas, from the middle");
+    Shares slices("slices of equal angles");
     with_many([&](const glm::vec2& u) {
         const glm::vec3 place = sample_disk(k_disk, {0.0F, 0.0F, 0.0F}, u).position - k_disk.center;
         rings.add((place.x * place.x + place.z * place.z) / 0.25F * 0.9999F);
@@ -304,11 +310,18 @@ TEST_CASE("sample_sphere: on the side that is seen, with one density", "[12-soft
         INFO("the sine is 3/5, the cosine 4/5: a cap of the height 1/5");
         CHECK(sample.pdf == about(1.0 / (2.0 * std::numbers::pi * 0.2)));
     });
+    const SphereLight ball{{0.0F, 10.0F, 0.0F}, 1.0F};
+    with_corners([&](const glm::vec2& u) {
+        CAPTURE(u.x, u.y);
+        INFO("at its rim the number below the root may come out a little negative");
+        const LightSample sample = sample_sphere(ball, {0.0F, 0.0F, 0.0F}, u);
+        CHECK(glm::distance(sample.position, ball.center) == about(1.0, 1e-2));
+    });
 }
 
 TEST_CASE("sample_sphere: equal solid angles get equally many", "[12-soft-light][sample_sphere]") {
-    Shares heights;
-    Shares slices;
+    Shares heights("heights of the cap, from its top");
+    Shares slices("slices of equal angles");
     const glm::vec3 from(0.0F, 0.0F, 0.0F);
     with_many([&](const glm::vec2& u) {
         const glm::vec3 direction = glm::normalize(sample_sphere(k_sphere, from, u).position - from);
@@ -322,8 +335,10 @@ TEST_CASE("sample_sphere: equal solid angles get equally many", "[12-soft-light]
 TEST_CASE("sample_sphere: a sphere that is small and far away", "[12-soft-light][sample_sphere]") {
     const SphereLight star{{0.0F, 1000.0F, 0.0F}, 0.1F};
     const LightSample sample = sample_sphere(star, {0.0F, 0.0F, 0.0F}, {0.3F, 0.7F});
-    INFO("a cap of the height 0.5e-8, which 1 - cos loses all digits of");
-    CHECK(sample.pdf / 3.183099e7F == about(1.0, 1e-3));
+    {
+        INFO("a cap of the height 0.5e-8, which 1 - cos loses all digits of");
+        CHECK(sample.pdf / 3.183099e7F == about(1.0, 1e-3));
+    }
     INFO("nearer by: a place on the sphere, though squares of distances have few digits left");
     const SphereLight moon{{0.0F, 30.0F, 0.0F}, 0.1F};
     CHECK(glm::distance(sample_sphere(moon, {0.0F, 0.0F, 0.0F}, {0.3F, 0.7F}).position, moon.center) <= 0.12F);
@@ -386,8 +401,8 @@ TEST_CASE("lens_ray: all rays meet in the plane of focus", "[12-soft-light][lens
 }
 
 TEST_CASE("lens_ray: all points of the lens are equally likely", "[12-soft-light][lens_ray]") {
-    Shares rings;
-    Shares slices;
+    Shares rings("rings of equal areas, from the middle");
+    Shares slices("slices of equal angles");
     with_many([&](const glm::vec2& u) {
         const glm::vec3 place = lens_ray(k_camera, k_frame, k_slanted, u).origin - k_camera.from;
         REQUIRE(place.z == about(0.0));

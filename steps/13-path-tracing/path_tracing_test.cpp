@@ -210,10 +210,14 @@ TEST_CASE("scatter_diffuse: weight and pdf belong to the direction", "[13-path-t
             REQUIRE_THAT(sample->direction, IsUnitLength());
             const float cosine = glm::dot(sample->direction, normal);
             REQUIRE(cosine >= -1e-4F);
-            INFO("pdf: cos / pi");
-            REQUIRE(sample->pdf == about(static_cast<double>(cosine / k_pi), 1e-3));
-            INFO("weight: (kd color / pi) * cos / pdf");
-            REQUIRE_THAT(sample->weight, IsNear(Color(0.4F, 0.2F, 0.1F)));
+            {
+                INFO("pdf: cos / pi");
+                REQUIRE(sample->pdf == about(static_cast<double>(cosine / k_pi), 1e-3));
+            }
+            {
+                INFO("weight: (kd color / pi) * cos / pdf");
+                REQUIRE_THAT(sample->weight, IsNear(Color(0.4F, 0.2F, 0.1F)));
+            }
             REQUIRE_FALSE(sample->specular);
         }
     }
@@ -322,6 +326,7 @@ TEST_CASE("path_light: the handout's worked example", "[13-path-tracing][path_li
 }
 
 TEST_CASE("path_light: three bounces are sure", "[13-path-tracing][path_light]") {
+    INFO("the first three never play roulette, however little light is left");
     for (std::uint32_t number = 0; number < 200; ++number) {
         PathOfStops path({Stop{.weight = Color(0.1F)}, Stop{.weight = Color(0.1F)}, Stop{.weight = Color(0.1F)},
                           Stop{.light = Color(1.0F), .scatters = false}});
@@ -331,11 +336,16 @@ TEST_CASE("path_light: three bounces are sure", "[13-path-tracing][path_light]")
 }
 
 TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracing][path_light]") {
-    INFO("walls that send half of the light on, 1 from the lamps at each: 1 + 1/2 + 1/4 + ... = 2");
+    INFO(
+        "walls that send half of the light on, 1 from the lamps at each: 1 + 1/2 + 1/4 + ... = 2. Less: who survives "
+        "counts "
+        "weight / q");
     const Means half = means_of({Stop{.light = k_white, .weight = Color(0.5F)}});
     CHECK(half.light == about(2.0, 0.035));
-    INFO("a path has 4 rays and an eighth: roulette is played from the fourth bounce on, with the weight behind it");
-    CHECK(std::abs(half.rays - 4.125) < 0.06);
+    INFO(
+        "a path has 4 rays and an eighth: from the fourth bounce on roulette is played, and of 16 paths one survives "
+        "the first time. More: it begins too late, or asks the weight before the bounce. Fewer: it begins too early");
+    CHECK(half.rays == Approx(4.125).margin(0.06));
     INFO("walls that send four fifths on: 5");
     const Means bright = means_of({Stop{.light = k_white, .weight = Color(0.8F)}});
     CHECK(bright.light == about(5.0, 0.045));

@@ -10,7 +10,7 @@ from course_fakes import written_course
 
 from raysteps.cli import render, view
 from raysteps.cli.app import main
-from raysteps.cli.render import build_mine, run_raytrace, scene_in, take_impl
+from raysteps.cli.render import build_mine, place_of_scene, run_raytrace, take_impl
 from raysteps.cli.todo_steps import advice, as_far_as_written, last_written, refuse_missing_tree
 from raysteps.common.errors import StudentBuildError, UsageError
 from raysteps.common.process import Outcome, run
@@ -151,7 +151,9 @@ def test_a_source_that_is_not_there_is_told_with_what_brings_it_back(
     ],
 )
 def test_the_scene_is_the_word_that_belongs_to_no_option(typed: str, scene: str | None) -> None:
-    assert scene_in(typed.split()) == scene
+    words = typed.split()
+    place = place_of_scene(words)
+    assert (None if place is None else words[place]) == scene
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,9 @@
 """Noisy pictures: what is right passes whatever chance does, what is a little wrong does not."""
 
+import json
+import math
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -7,10 +11,12 @@ from raysteps.images.noise import (
     PART,
     Estimates,
     EstimatesError,
+    as_lists,
     as_picture,
     bias_map,
     bytes_of,
     compare_estimates,
+    from_lists,
     noise_ratio,
     read_estimates,
     samples_of,
@@ -165,6 +171,30 @@ def test_estimates_are_read_as_they_are_written() -> None:
     found = read_estimates(bytes_of(Estimates(light, 2 * light)))
     assert np.allclose(found.mean, light)
     assert np.allclose(found.variance, 2 * light)
+
+
+def test_a_students_kit_keeps_estimates_as_text() -> None:
+    light = _scene().astype(np.float32).astype(np.float64)
+    found = from_lists(json.loads(json.dumps(as_lists(Estimates(light, 3 * light)))))
+    assert np.allclose(found.mean, light, rtol=1e-7, atol=0)
+    assert np.allclose(found.variance, 3 * light, rtol=1e-7, atol=0)
+
+
+@pytest.mark.parametrize(
+    "lists",
+    [
+        None,
+        {},
+        {"mean": [[[1, 2, 3]]], "variance": [[[1, 2]]]},
+        {"mean": [[[1, 2, 3]]], "variance": [[[1, 2, -1]]]},
+        {"mean": [[[1, 2, math.nan]]], "variance": [[[1, 2, 1]]]},
+        {"mean": [[[1, 2, 3], [1]]], "variance": [[[1, 2, 3]]]},
+        {"mean": [], "variance": []},
+    ],
+)
+def test_other_lists_are_no_estimates(lists: Any) -> None:
+    with pytest.raises(EstimatesError):
+        from_lists(lists)
 
 
 @pytest.mark.parametrize("data", [b"", b"P6 1 1 255\n", b"raysteps-estimates 0 1\n", b"raysteps-estimates 2 1\n1234"])

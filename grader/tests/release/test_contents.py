@@ -19,14 +19,14 @@ from raysteps.report.wording import after_the_last
 # What goes out of the grader. A new room, or a new module in a room of which a part stays, is a decision: may those who
 # solve the steps read it?
 _ROOMS = {
-    ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "play", "play/static",
-    "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission", "toolchain",
-    "updater", "watch",
+    ".", "bootstrap", "cli", "common", "course", "finale", "grading", "images", "inspector", "models", "play",
+    "play/static", "progress", "report", "report/static", "report/templates", "results", "sandbox", "submission",
+    "toolchain", "updater", "watch",
 }  # fmt: skip
 _PARTS = {
     "cli": {
-        "app", "check", "compare_pictures", "finale", "inspect", "play", "render", "report", "steps", "todo_steps",
-        "update", "view", "watch",
+        "app", "check", "compare_pictures", "convert", "finale", "inspect", "play", "render", "report", "steps",
+        "todo_steps", "update", "view", "watch",
     },
     "course": {"manifest", "project", "stubs"},
     "grading": {"build_messages", "images", "quick_look", "scoring", "self_check", "step", "unit_tests"},

@@ -124,7 +124,7 @@ def test_git_takes_no_notice_of_what_commands_make(project: Project, released: P
         for one in [*(one for block in typed(page, text) for one in block), *mentioned(page, text)]:
             pairs = zip(one.words, one.words[1:], strict=False)
             made |= {word for option, word in pairs if option in _WRITES and not word.isupper()}
-    made = {name for name in made if not re.search(r"[A-Z]{3}|\.nff$", name)}
+    made = {name for name in made if not re.search(r"[A-Z]{3}|\.(nff|pbrt)$", name)}
     assert {"out.png", "build/finale", "pixel.html"} <= made
     (tmp_path / ".gitignore").write_bytes((released / ".gitignore").read_bytes())
     subprocess.run(["git", "init", "--quiet", tmp_path], check=True)
@@ -168,7 +168,7 @@ def test_a_first_step_without_pictures(steps: list[Step]) -> None:
 def test_words_for_one_kind_of_kit() -> None:
     text = (
         "# A\n\nOne<!-- whole kit --> or `--impl reference`<!-- end -->.\n\n<!-- whole kit -->\nTwo\n\n```\nx\n```\n"
-        "<!-- end -->\n<!-- students' kit:\nThree\nand four.\n-->\n\n- five<!-- students' kit: , six -->\n"
+        "<!-- end -->\n<!-- students' kit:\nThree\nand four.\n-->\n\n- five<!-- students'\n  kit: , six -->\n"
         "\n| a | b<!-- whole kit --> |\n| c | d<!-- end --> |\n| e | f |\n\n```\ny\n\n\n\nz\n```\n"
     )
     assert for_students("a.md", text) == (

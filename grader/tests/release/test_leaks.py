@@ -40,7 +40,13 @@ def _only(leaks: list[Leak], place: str, beside: str = "") -> Leak:
     return leaks[0]
 
 
-def test_a_whole_release_holds_no_solution(kit: BuiltKit, steps: list[Step], secrets: Secrets, tmp_path: Path) -> None:
+@pytest.mark.parametrize("parts", ["one", "all"])
+def test_a_whole_release_holds_no_solution(
+    kit: BuiltKit, steps: list[Step], secrets: Secrets, tmp_path: Path, parts: str
+) -> None:
+    if parts == "all":
+        kit = kit.of_all_parts()
+        steps = list(kit.steps)
     write_release(kit, steps, "Course", tmp_path / "kit")
     assert find_leaks(secrets, tmp_path / "kit") == []
     release = read_release(tmp_path / "kit")

@@ -19,7 +19,7 @@ _FLOORS = (
     {"images", "judge"},
     {"diagnosis", "report"},
     {"grading"},
-    {"classroom", "finale", "gallery", "play", "progress"},
+    {"classroom", "finale", "gallery", "models", "play", "progress"},
     {"desk", "exports", "inspector", "release", "watch"},
     {"cli"},
     {"__main__", "tools"},

@@ -51,6 +51,7 @@ COMMANDS = (
         "raysteps.cli.render",
         "any",
     ),
+    Command("convert", "a model (OBJ, glTF, PLY, STL) as a scene", "raysteps.cli.convert", "any"),
     Command("inspect", "follow one pixel: its rays, tests and light", "raysteps.cli.inspect", "any"),
     Command("view", f"a window on a scene: move the camera, click pixels{_IMPL}", "raysteps.cli.view", "any"),
     Command(

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.cli import STUDENTS_KIT, add_impl
-from raysteps.cli.render import build_program, refuse_no_scene, run_raytrace
+from raysteps.cli.render import build_program, run_raytrace, scene_there
 from raysteps.cli.todo_steps import built_trees, unfinished
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import usable_folder, write_out
@@ -231,7 +231,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             raise UsageError(f"{arguments.scene}: --new writes a scene and draws none; expected one of the two")
         return _new_scene(project, arguments.new, console)
     scene = arguments.scene or os.fspath(project.scenes / _SCENE)
-    refuse_no_scene(project, scene)
+    scene = scene_there(project, scene)
     if arguments.scene is not None and arguments.size is None:
         _check_resolution(scene)
     out: Path = arguments.out or project.build / "finale"

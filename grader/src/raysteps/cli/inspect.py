@@ -5,6 +5,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -12,7 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.cli import STUDENTS_KIT, add_impl
-from raysteps.cli.render import build_program, refuse_folder, refuse_no_scene, whose
+from raysteps.cli.render import build_program, refuse_folder, scene_there, whose
 from raysteps.cli.todo_steps import as_far_as_written, built_trees, refuse_missing_tree, unfinished, usual_step
 from raysteps.common import process
 from raysteps.common.documents import plain
@@ -119,7 +120,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     options = _options(project, arguments)
     if arguments.against and arguments.impl == "reference":
         raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
-    refuse_no_scene(project, arguments.scene)
+    options = replace(options, scene=scene_there(project, arguments.scene))
     for path in (arguments.json, arguments.html):
         if path is not None:
             refuse_folder(path)

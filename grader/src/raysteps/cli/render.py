@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from raysteps.cli.convert import as_scene
 from raysteps.cli.todo_steps import advice, as_far_as_written, last_value, refuse_missing_tree, wanted_step
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.platform import own_command
@@ -164,20 +165,28 @@ _FLAGS = {"--quiet", "--spd", "--strip"}  # without a value behind them
 _NOTHING_TO_DRAW = {"-h", "--help", "--list-accel"}
 
 
-def scene_in(args: Sequence[str]) -> str | None:
-    """The first word that is no option and no value of one."""
+def place_of_scene(args: Sequence[str]) -> int | None:
+    """Where the first word is that is no option and no value of one."""
     if not _NOTHING_TO_DRAW.isdisjoint(args):
         return None
-    pairs = zip(("", *args), args, strict=False)
-    free = (word for before, word in pairs if not before.startswith("-") or before in _FLAGS or "=" in before)
-    return next((word for word in free if not word.startswith("-")), None)
+    pairs = enumerate(zip(("", *args), args, strict=False))
+    free = (i for i, (before, _) in pairs if not before.startswith("-") or before in _FLAGS or "=" in before)
+    return next((i for i in free if not args[i].startswith("-")), None)
 
 
-def refuse_no_scene(project: Project, scene: str | None) -> None:
-    """Before anything is built."""
-    path = Path(scene or "")
+def with_scene(project: Project, args: Sequence[str]) -> list[str]:
+    """The same words, with a scene that is there. Before anything is built."""
+    place = place_of_scene(args)
+    if place is None:
+        return list(args)
+    return [*args[:place], scene_there(project, args[place]), *args[place + 1 :]]
+
+
+def scene_there(project: Project, scene: str) -> str:
+    """The scene, or of a model the scene around it. Before anything is built."""
+    path = Path(scene)
     if not scene or (path.exists() and not path.is_dir()):
-        return
+        return as_scene(project, scene)
     own = Path(f"{scene}.nff")
     known = {one.stem: one for one in (*sorted(project.scenes.rglob("*.nff")), *([own] if own.is_file() else []))}
     name = nearest(path.stem, known)
@@ -228,7 +237,7 @@ def run_words(project: Project, args: list[str]) -> int:
     if picture is not None and Path(picture).suffix.lower() not in ("", ".png", ".ppm"):
         raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name that ends so")
     wanted_step(project, args)  # complains before anything is built
-    refuse_no_scene(project, scene_in(args))
+    args = with_scene(project, args)
     for option in ("-o", "--stats"):
         refuse_place(args, option)
     if impl == "reference":

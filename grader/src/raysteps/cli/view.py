@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from raysteps.cli.render import build_program, refuse_no_scene, refuse_place, run_raytrace, scene_in, take_impl
+from raysteps.cli.render import build_program, refuse_place, run_raytrace, take_impl, with_scene
 from raysteps.cli.todo_steps import refuse_missing_tree, wanted_step
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
@@ -42,7 +42,7 @@ def run_words(project: Project, args: list[str]) -> int:
     """The arguments of the program view, and --impl."""
     impl, args = take_impl(args)
     wanted_step(project, args)
-    refuse_no_scene(project, scene_in(args))
+    args = with_scene(project, args)
     refuse_place(args, "--screenshot")
     if impl == "mine":
         refuse_missing_tree(project, args)

@@ -10,6 +10,7 @@ reference's.
 import math
 import re
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -71,6 +72,28 @@ def bytes_of(estimates: Estimates) -> bytes:
     width, height = estimates.size
     values = np.stack([estimates.mean, estimates.variance], axis=2).astype("<f4")
     return b"raysteps-estimates %d %d\n" % (width, height) + values.tobytes()
+
+
+def as_lists(estimates: Estimates) -> dict[str, Any]:
+    """For JSON, to as many digits as a float has."""
+
+    def rounded(light: Light) -> Any:
+        return [[[float(f"{channel:.9g}") for channel in part] for part in row] for row in light]
+
+    return {"mean": rounded(estimates.mean), "variance": rounded(estimates.variance)}
+
+
+def from_lists(lists: Any) -> Estimates:
+    """What `as_lists` wrote."""
+    try:
+        mean, variance = (np.array(lists[name], dtype=np.float64) for name in ("mean", "variance"))
+    except (KeyError, TypeError, ValueError) as error:
+        raise EstimatesError("expected the means and variances of parts") from error
+    if mean.ndim != 3 or mean.shape != variance.shape or mean.shape[2] != 3 or not mean.size:
+        raise EstimatesError("expected as many variances as means, three for each part")
+    if not np.isfinite([mean, variance]).all() or (variance < 0).any():
+        raise EstimatesError("expected numbers, and variances of 0 or more")
+    return Estimates(mean, variance)
 
 
 def samples_of(args: tuple[str, ...]) -> int:

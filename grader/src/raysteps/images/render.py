@@ -29,9 +29,10 @@ from raysteps.images.compare import (
 from raysteps.images.noise import (
     Estimates,
     EstimatesError,
+    as_lists,
     as_picture,
-    bytes_of,
     compare_estimates,
+    from_lists,
     read_estimates,
     with_samples,
 )
@@ -56,8 +57,6 @@ def write_reference_image(kit: BuiltKit, project: Project, step: Step, case: Ima
     path = reference_image_path(project, step, case)
     scene = kit.project.root / case.scene
     write_png(shown_reference(kit, scene, case), path)
-    if case.max_noise is not None:
-        write_bytes(path.with_suffix(ESTIMATES), bytes_of(reference_parts(kit, scene, case)))
     work = reference_work(kit, scene, case.args) if case.max_share is not None else None
     write_json(
         path.with_suffix(".json"),
@@ -65,6 +64,7 @@ def write_reference_image(kit: BuiltKit, project: Project, step: Step, case: Ima
             "scene": content_hash(scene.read_bytes()),
             "work": None if work is None else asdict(work),
             "for_nothing": error_for_nothing(kit, step, scene, case),
+            "parts": None if case.max_noise is None else as_lists(reference_parts(kit, scene, case)),
         },
     )
 
@@ -121,11 +121,11 @@ def _stored_for_nothing(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> fl
 
 def stored_parts(picture: Path) -> Estimates:
     """The means that lie beside a noisy one."""
-    path = picture.with_suffix(ESTIMATES)
+    path = picture.with_suffix(".json")
     try:
-        return read_estimates(path.read_bytes())
-    except (OSError, EstimatesError) as error:
-        raise UsageError(f"{path}: cannot be read; {_AGAIN}") from error
+        return from_lists(json.loads(path.read_text(encoding="utf-8"))["parts"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise UsageError(f"{path}: holds no means of parts; {_AGAIN}") from error
 
 
 ESTIMATES = ".estimates"

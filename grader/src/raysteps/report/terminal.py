@@ -103,7 +103,9 @@ def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce
     color = "green" if image.passed else "red"
     ended = _ended(image)
     share = "" if image.wrong_share is None else f"{image.wrong_share:.2%}"
-    share = f": {ended}" if ended else "" if not share or share in image.message else f"  {share} wrong"
+    noisy = "no more off than chance explains" if image.passed else f"{share} of its parts wrong"
+    found = f"  {noisy if image.noisy else f'{share} wrong'}"
+    share = f": {ended}" if ended else "" if not share or share in image.message else found
     console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
     if not image.passed:
         message = once(image.message) if ended else image.message

@@ -36,7 +36,7 @@ float solid_angle_pdf(float area_pdf, const glm::vec3& from, const glm::vec3& po
 }
 
 LightSample sample_triangle(const TriangleLight& light, const glm::vec3& from, const glm::vec2& u) {
-    // TODO: Choose weights of the corners by which all places are equally likely; the density is 1 / area.
+    // TODO: Choose weights of the corners by which all places are equally likely: 1 / area, by area.
     RAYSTEPS_TODO("12-soft-light", "sample_triangle");
     return LightSample{light.a};
 }

@@ -1,0 +1,72 @@
+"""The command `convert`: a model from elsewhere, as a scene that this kit draws; and how other commands take one."""
+
+import argparse
+import os
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+
+from raysteps.common.errors import UsageError
+from raysteps.common.files import content_hash
+from raysteps.course.manifest import read_steps
+from raysteps.course.project import Project
+
+_MESHES = "11"  # the step from which on scenes have meshes and textures
+ENDINGS = (".obj", ".gltf", ".glb", ".ply", ".stl", ".off")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The model, and the scene."""
+    parser.add_argument("model", type=Path, metavar="MODEL", help="a file that ends in " + ", ".join(ENDINGS))
+    parser.add_argument(
+        "-o",
+        dest="out",
+        type=Path,
+        required=True,
+        metavar="SCENE",
+        help="SCENE.pbrt for part two, with the textures beside it; SCENE.nff for part one",
+    )
+    parser.add_argument("--up", choices=["y", "z"], default="y", help="which way is up in the model (y)")
+    parser.add_argument(
+        "--no-textures",
+        action="store_true",
+        help="their mean colours instead, so that the scene is one file, as scenes that are graded must be",
+    )
+
+
+def _write(model: Path, out: Path, *, z_up: bool, textures: bool) -> list[str]:
+    from raysteps.models import mesh_file as reader  # trimesh takes its time
+    from raysteps.models.scene_around import write_nff, write_pbrt
+
+    parts, missing = reader.read_model(model, z_up=z_up)
+    if out.suffix.lower() == ".nff":
+        write_nff(parts, out)
+    else:
+        write_pbrt(parts, out, textures=textures)
+    triangles = sum(len(part.triangles) for part in parts)
+    notes = [f"{model}: it names {name}, which is not there; it is drawn without" for name in missing]
+    return [*notes, f"{model.name}: {triangles} triangles of {len(parts)} materials"]
+
+
+def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
+    """Writes the scene."""
+    out: Path = arguments.out
+    if out.suffix.lower() not in (".pbrt", ".nff") or out.is_dir():
+        raise UsageError(f"{out}: expected the name of a scene to write, .pbrt or .nff")
+    for note in _write(arguments.model, out, z_up=arguments.up == "z", textures=not arguments.no_textures):
+        console.print(escape(note), highlight=False)
+    console.print(f"Scene: {escape(os.fspath(out))}", soft_wrap=True, highlight=False)
+    return 0
+
+
+def as_scene(project: Project, scene: str) -> str:
+    """The scene itself; of a model, what it is converted into, in build/models."""
+    path = Path(scene)
+    if path.suffix.lower() not in ENDINGS or not path.is_file():
+        return scene
+    ending = ".pbrt" if any(step.number == _MESHES for step in read_steps(project)) else ".nff"
+    folder = project.build / "models" / f"{path.stem}-{content_hash(os.fspath(path.resolve()).encode())[:8]}"
+    out = folder / f"{path.stem}{ending}"
+    _write(path, out, z_up=False, textures=True)
+    return os.fspath(out)
