@@ -150,10 +150,10 @@ void ProgressiveRenderer::trace(const RenderRequest& request) {
     }
 }
 
-void ProgressiveRenderer::trace_pass(Pass& pass, void (ProgressiveRenderer::*trace)(Pass&, std::size_t)) {
+void ProgressiveRenderer::trace_pass(Pass& pass, void (ProgressiveRenderer::*work_on)(Pass&, std::size_t)) {
     run_on_threads(threads_, [&] {
         for (std::size_t tile = pass.next_tile++; tile < pass.tiles.size() && !given_up(); tile = pass.next_tile++) {
-            (this->*trace)(pass, tile);
+            (this->*work_on)(pass, tile);
         }
     });
 }

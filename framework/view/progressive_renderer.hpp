@@ -77,7 +77,7 @@ private:
 
     void work();
     void trace(const RenderRequest& request);
-    void trace_pass(Pass& pass, void (ProgressiveRenderer::*trace)(Pass&, std::size_t));
+    void trace_pass(Pass& pass, void (ProgressiveRenderer::*work_on)(Pass&, std::size_t));
     void trace_tile(Pass& pass, std::size_t tile);
     void add_samples(Pass& pass, std::size_t tile);
     void say_traced(std::size_t pixels);
