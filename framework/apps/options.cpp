@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
+#include "io/numbers.hpp"
 #include "render/accelerator_registry.hpp"
 #include "render/pixel_samples.hpp"
 
@@ -19,6 +21,8 @@ const char* const k_raytrace_usage = R"(Usage: raysteps render SCENE.nff -o OUT.
                           to 4096, like 4, 9 or 16; edges become smooth, at N times the work (1, from step 10 on 16)
   --sampler halton|stratified
                           where the rays of a pixel go, from step 10 on (halton)
+  --error E               from step 10 on go on with a pixel, up to 16 times --samples, until its brightness is known to
+                          this share of itself, from 0.001 to 1: as many rays as a pixel's noise needs
   --seed N                of the random numbers, from step 10 on (10)
   --filter box|tent|mitchell
                           how much each of them counts, from step 10 on (tent)
@@ -75,6 +79,14 @@ int parse_samples(const std::string& text) {
     refuse("--samples", "a square number of rays for each pixel, 1, 4, 9 and so on up to 4096", text);
 }
 
+float parse_error(const std::string& text) {
+    const std::optional<double> number = parse_number(text);
+    if (!number || !(*number >= 0.001 && *number <= 1.0)) {
+        refuse("--error", "a number from 0.001 to 1, the share of its brightness by which a pixel may be off", text);
+    }
+    return static_cast<float>(*number);
+}
+
 std::vector<std::string> accelerators_here() {
     std::vector<std::string> names;
     for (const AcceleratorEntry& entry : accelerator_registry()) {
@@ -101,8 +113,11 @@ void check(const RaytraceOptions& options) {
     if (options.sample_side.value_or(1) > 1 && options.map) {
         throw UsageError("--samples: expected no --map beside it, which shows what one ray for each pixel costs");
     }
-    if (!options.estimates.empty() && (!is_of_part_two(options.step) || options.map)) {
-        throw UsageError("--estimates: expected a --step of 10 or more, and no --map, beside it");
+    for (const auto& [name, is_there] : {std::pair{"--estimates", !options.estimates.empty()},
+                                         std::pair{"--error", options.sampling.max_error > 0.0F}}) {
+        if (is_there && (!is_of_part_two(options.step) || options.map)) {
+            throw UsageError(name + std::string(": expected a --step of 10 or more, and no --map, beside it"));
+        }
     }
     if (options.map_scale && !options.map) {
         throw UsageError("--map-scale: expected --map beside it, which says what is drawn");
@@ -189,6 +204,9 @@ RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
     line.choice<Filter>("--filter", options.sampling.filter,
                         {{"box", Filter::box}, {"tent", Filter::tent}, {"mitchell", Filter::mitchell}});
     line.option("-o", options.output).option("--stats", options.stats).option("--estimates", options.estimates);
+    line.option("--error", [&options](const std::string& text) {
+        options.sampling.max_error = parse_error(text);
+    });
     line.option("--seed", [&options](const std::string& text) {
         options.sampling.seed = static_cast<std::uint32_t>(number_between("--seed", text, 0, 2'147'483'647));
     });

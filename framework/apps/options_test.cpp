@@ -77,6 +77,11 @@ TEST_CASE("Seed and estimates are part two's", "[apps]") {
         parse_options({"a.nff", "-o", "b", "--step", "10", "--seed", "2147483647", "--estimates", "c"});
     CHECK(options.sampling.seed == 2147483647);
     CHECK(options.estimates == "c");
+    CHECK(parse_options({"a.nff", "-o", "b", "--step", "10", "--error", "0.02"}).sampling.max_error == 0.02F);
+    CHECK_THROWS_AS(parse_options({"a.nff", "-o", "b", "--step", "10", "--error", "0"}), UsageError);
+    CHECK_THROWS_AS(parse_options({"a.nff", "-o", "b", "--step", "10", "--error", "nan"}), UsageError);
+    CHECK(complaint_about({"a.nff", "-o", "b", "--step", "9", "--error", "0.1"}) ==
+          "--error: expected a --step of 10 or more, and no --map, beside it");
     CHECK_THROWS_AS(parse_options({"a.nff", "-o", "b", "--seed", "-1"}), UsageError);
     const std::string without = "--estimates: expected a --step of 10 or more, and no --map, beside it";
     CHECK(complaint_about({"a.nff", "-o", "b", "--step", "9", "--estimates", "c"}) == without);

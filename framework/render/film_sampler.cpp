@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <span>
 
 #include "core/random_stream.hpp"
 #include "render/pixel_samples.hpp"
@@ -15,7 +16,10 @@
 namespace raysteps {
 namespace {
 
-constexpr int k_fine = 256;  // places along each side of a pixel
+constexpr int k_fine = 256;              // places along each side of a pixel
+constexpr int k_most_rounds = 16;        // of samples in one pixel
+constexpr std::size_t k_least = 16;      // samples, before they say how far they are off
+constexpr float k_dark = 0.1F;
 
 float reach_of(Filter filter) {
     switch (filter) {
@@ -57,19 +61,19 @@ Rect grown(const Rect& tile, int margin, const Camera& fine_camera) {
 
 FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& options)
     : side_(side), options_(options), fine_camera_(finer(camera, k_fine)), frame_(view_frame(fine_camera_)) {
-    for (int index = 0; options.sampler == Sampler::halton && index < side * side; ++index) {
+    const int points = side * side * (options.max_error > 0.0F ? k_most_rounds : 1);
+    for (int index = 0; options.sampler == Sampler::halton && index < points; ++index) {
         halton_points_.push_back(halton_point(static_cast<std::uint32_t>(index)));
     }
 }
 
-std::vector<glm::vec2> FilmSampler::points_of(int x, int y) const {
-    RandomStream random(options_.seed, pixel_number(x, y));
+std::vector<glm::vec2> FilmSampler::points_of_round(int round, const glm::vec2& shift, RandomStream& random) const {
     if (options_.sampler == Sampler::stratified) {
         return stratified_samples(side_, random);
     }
     std::vector<glm::vec2> shifted;
-    const glm::vec2 shift = random.next_2d();
-    for (const glm::vec2& point : halton_points_) {
+    const auto count = static_cast<std::size_t>(side_ * side_);
+    for (const glm::vec2& point : std::span(halton_points_).subspan(static_cast<std::size_t>(round) * count, count)) {
         const glm::vec2 moved = point + shift;
         shifted.push_back(moved - glm::step(glm::vec2(1.0F), moved));
     }
@@ -105,14 +109,28 @@ struct FilmSampler::Film {
 std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integrator& integrator) const {
     std::vector<FilmSample> samples;
     SampleId sample{.pixel = RandomStream::philox({pixel_number(x, y), options_.seed, 0, 0}, {0, 0})[0]};
-    for (const glm::vec2& point : points_of(x, y)) {
-        const int fine_x = fine_place(x, point.x, fine_camera_.width);
-        const int fine_y = fine_place(y, point.y, fine_camera_.height);
-        const Ray ray = through_lens(primary_ray(fine_camera_, frame_, fine_x, fine_y), sample);
-        samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray, sample)});
-        ++sample.index;
+    RandomStream random(options_.seed, pixel_number(x, y));
+    const glm::vec2 shift = options_.sampler == Sampler::halton ? random.next_2d() : glm::vec2(0.0F);
+    for (int round = 0; round == 0 || (round < k_most_rounds && !is_good_enough(samples)); ++round) {
+        for (const glm::vec2& point : points_of_round(round, shift, random)) {
+            const int fine_x = fine_place(x, point.x, fine_camera_.width);
+            const int fine_y = fine_place(y, point.y, fine_camera_.height);
+            const Ray ray = through_lens(primary_ray(fine_camera_, frame_, fine_x, fine_y), sample);
+            samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray, sample)});
+            ++sample.index;
+        }
     }
     return samples;
+}
+
+bool FilmSampler::is_good_enough(const std::vector<FilmSample>& samples) const {
+    if (options_.max_error == 0.0F) {
+        return true;
+    }
+    const PixelEstimate estimate = estimate_of(samples);
+    const auto brightness = [](const Color& color) { return (color.r + color.g + color.b) / 3.0F; };
+    const float error = std::sqrt(brightness(estimate.variance)) / std::max(brightness(estimate.mean), k_dark);
+    return samples.size() >= k_least && error <= options_.max_error;
 }
 
 /// The integrator's streams count up from 0; the lens has the last one.

@@ -153,3 +153,40 @@ TEST_CASE("Part two: the seed chooses the samples, and nothing else does", "[ren
         CHECK(means.size() > 1);
     }
 }
+
+TEST_CASE("Part two: with an error to reach, only noisy pixels get more samples", "[render]") {
+    const Scene scene = half_dark(3, 1.5F);
+    for (const Sampler sampler : k_samplers) {
+        const auto rays = [&](float max_error) {
+            return render(scene, of_part_two({.sampler = sampler, .max_error = max_error}, 4)).stats.eye;
+        };
+        INFO("tent filter: no pixel but these nine");
+        CHECK(rays(0.0F) == 9 * 16);
+        CHECK(rays(1.0F) == 9 * 16);
+        INFO("half of a pixel light: 0.5 / sqrt(n - 1) off, which is 0.07 of 0.5 from 205 on; three such pixels");
+        CHECK(rays(0.07F) == (6 + 3 * 13) * 16);
+        INFO("never more than 16 times as many");
+        CHECK(rays(0.001F) == (6 + 3 * 16) * 16);
+    }
+}
+
+TEST_CASE("Part two: few samples say nothing of their error", "[render]") {
+    const Scene scene = half_dark(3, 3.0F);
+    const Rendering rendering = render(scene, of_part_two({.max_error = 1.0F}, 1));
+    CHECK(rendering.stats.eye == 9 * 16);
+}
+
+TEST_CASE("Part two: with an error to reach, a part of the picture gives the same pixels", "[render]") {
+    const Scene scene = balls_on_floor();
+    RenderOptions options = of_part_two({.filter = Filter::mitchell, .max_error = 0.05F});
+    const Image whole = render(scene, options).image;
+    options.threads = 2;
+    options.crop = Rect{.x = 9, .y = 11, .width = 18, .height = 13};
+    const Image part = render(scene, options).image;
+    for (int y = 0; y < part.height(); ++y) {
+        for (int x = 0; x < part.width(); ++x) {
+            CAPTURE(x, y);
+            REQUIRE(part.at(x, y) == whole.at(x + 9, y + 11));
+        }
+    }
+}

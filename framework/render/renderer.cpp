@@ -57,10 +57,10 @@ Color mean_color(int x, int y, Integrator& integrator, const Job& job) {
     return sum / static_cast<float>(count);
 }
 
-std::optional<FilmSampler> sampler_of(Camera camera, const RenderOptions& options) {
-    camera.lens_radius = has_area_lights(options.step.step) ? camera.lens_radius : 0.0F;
+std::optional<FilmSampler> sampler_of(const Camera& camera, const RenderOptions& options) {
     return is_of_part_two(options.step.step) && !options.measure_cost
-               ? std::optional<FilmSampler>(std::in_place, camera, options.sample_side, options.sampling)
+               ? std::optional<FilmSampler>(std::in_place, camera_of_step(camera, options.step.step),
+                                            options.sample_side, options.sampling)
                : std::nullopt;
 }
 

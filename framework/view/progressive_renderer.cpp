@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/threads.hpp"
+#include "render/film_sampler.hpp"
 #include "render/tile_rays.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
@@ -38,9 +39,11 @@ void fill_block(Frame& frame, const TracedPixel& pixel, int side) {
 struct ProgressiveRenderer::Pass {
     const RenderRequest& request;
     const Accelerator& accelerator;
-    int side;
-    ViewFrame view;
     std::vector<Rect> tiles;
+    int side = 1;
+    ViewFrame view{};
+    std::optional<FilmSampler> sampler{};  ///< of a pass that adds samples
+    int samples_before = 1;
     std::atomic<std::size_t> next_tile{0};
 };
 
@@ -128,23 +131,56 @@ void ProgressiveRenderer::work() {
 
 void ProgressiveRenderer::trace(const RenderRequest& request) {
     const Accelerator& accelerator = accelerators_.get(request.acceleration, request.step.step);
-    for (const int side : k_pass_sides) {
-        if (given_up()) {
-            return;
-        }
-        trace_pass(request, accelerator, side);
+    const std::vector<Rect> tiles = tiles_of({0, 0, request.camera.width, request.camera.height});
+    const int samples = is_of_part_two(request.step.step) ? k_samples_of_part_two : 1;
+    wanted_pixels_ = frame_.colors.pixels().size() * static_cast<std::size_t>(samples);
+    for (std::size_t i = 0; i < k_pass_sides.size() && !given_up(); ++i) {
+        Pass pass{request, accelerator, tiles};
+        pass.side = k_pass_sides.at(i);
+        pass.view = view_frame(request.camera);
+        trace_pass(pass, &ProgressiveRenderer::trace_tile);
         can_be_seen_ = true;
+    }
+    for (int before = 1; before < samples && !given_up(); ++before) {
+        Pass pass{request, accelerator, tiles};
+        const SamplingOptions options{.filter = Filter::box, .seed = static_cast<std::uint32_t>(before)};
+        pass.sampler.emplace(camera_of_step(request.camera, request.step.step), 1, options);
+        pass.samples_before = before;
+        trace_pass(pass, &ProgressiveRenderer::add_samples);
     }
 }
 
-void ProgressiveRenderer::trace_pass(const RenderRequest& request, const Accelerator& accelerator, int side) {
-    const Rect whole{0, 0, request.camera.width, request.camera.height};
-    Pass pass{request, accelerator, side, view_frame(request.camera), tiles_of(whole), {}};
+void ProgressiveRenderer::trace_pass(Pass& pass, void (ProgressiveRenderer::*work_on)(Pass&, std::size_t)) {
     run_on_threads(threads_, [&] {
         for (std::size_t tile = pass.next_tile++; tile < pass.tiles.size() && !given_up(); tile = pass.next_tile++) {
-            trace_tile(pass, tile);
+            (this->*work_on)(pass, tile);
         }
     });
+}
+
+void ProgressiveRenderer::say_traced(std::size_t pixels) {
+    if (!another_wanted_) {
+        traced_ += pixels;
+        status_.share = static_cast<double>(traced_) / static_cast<double>(wanted_pixels_);
+    }
+    ++status_.version;
+}
+
+// One more in each pixel, and the mean of all so far.
+void ProgressiveRenderer::add_samples(Pass& pass, std::size_t tile) {
+    const Rect& area = pass.tiles[tile];
+    TileRays rays(pass.accelerator, scene_);
+    const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, pass.request.step);
+    const std::vector<FilmSampler::Pixel> pixels = pass.sampler->pixels_of(area, *integrator);
+    const std::scoped_lock lock(mutex_);
+    std::size_t next = 0;
+    for (int y = area.y; y < area.y + area.height; ++y) {
+        for (int x = area.x; x < area.x + area.width; ++x) {
+            Color& mean = frame_.colors.at(x, y);
+            mean += (pixels[next++].color - mean) / static_cast<float>(pass.samples_before + 1);
+        }
+    }
+    say_traced(pixels.size());
 }
 
 void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
@@ -170,11 +206,7 @@ void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
     for (const TracedPixel& pixel : traced) {
         fill_block(frame_, pixel, pass.side);
     }
-    if (!another_wanted_) {
-        traced_ += traced.size();
-        status_.share = static_cast<double>(traced_) / static_cast<double>(frame_.colors.pixels().size());
-    }
-    ++status_.version;
+    say_traced(traced.size());
 }
 
 }  // namespace raysteps

@@ -33,6 +33,9 @@ inline constexpr std::array<int, 4> k_pass_sides{8, 4, 2, 1};
     return on_grid && !done_before;
 }
 
+/// In part two the picture goes on after that: each later pass takes one more sample in every pixel.
+inline constexpr int k_samples_of_part_two = 64;
+
 /// One picture that is wanted.
 struct RenderRequest {
     Camera camera;
@@ -74,8 +77,10 @@ private:
 
     void work();
     void trace(const RenderRequest& request);
-    void trace_pass(const RenderRequest& request, const Accelerator& accelerator, int side);
+    void trace_pass(Pass& pass, void (ProgressiveRenderer::*work_on)(Pass&, std::size_t));
     void trace_tile(Pass& pass, std::size_t tile);
+    void add_samples(Pass& pass, std::size_t tile);
+    void say_traced(std::size_t pixels);
     [[nodiscard]] bool given_up() const;
 
     const Scene& scene_;
@@ -87,6 +92,7 @@ private:
     Frame frame_;
     RenderStatus status_;
     std::size_t traced_ = 0;
+    std::size_t wanted_pixels_ = 0;  ///< each once for every sample
     bool ended_ = false;
     std::atomic<bool> stopping_{false};
     std::atomic<bool> another_wanted_{false};

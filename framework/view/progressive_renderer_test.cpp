@@ -98,6 +98,39 @@ TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
           cost_heatmap(costs, CostKind::depth, std::nullopt));
 }
 
+TEST_CASE("In part two the picture is the mean of many samples", "[view]") {
+    const Scene scene = balls_on_floor();
+    AcceleratorCache accelerators(scene);
+    Frame frame;
+    for (const int threads : {1, 3}) {
+        ProgressiveRenderer progressive(scene, accelerators, threads);
+        progressive.start(shot_of(scene, 10));
+        CHECK(finish(progressive).share == 1.0);
+        Frame again;
+        progressive.copy_colors(again);
+        CHECK((threads == 1 || again.colors == frame.colors));
+        frame = std::move(again);
+    }
+    RenderOptions options;
+    options.step.step = 10;
+    options.sample_side = 16;
+    const EstimateGrid estimates = render(scene, options).estimates;
+    double off = 0.0;
+    double off_before = 0.0;
+    options.sample_side = 1;
+    const EstimateGrid single = render(scene, options).estimates;
+    for (int y = 0; y < scene.camera.height; ++y) {
+        for (int x = 0; x < scene.camera.width; ++x) {
+            const Color difference = frame.colors.at(x, y) - estimates.at(x, y).mean;
+            off += static_cast<double>(glm::dot(difference, difference));
+            const Color before = single.at(x, y).mean - estimates.at(x, y).mean;
+            off_before += static_cast<double>(glm::dot(before, before));
+        }
+    }
+    INFO("64 samples have an eighth of the error, and so 1/64 of its square; 256 are not exact, either");
+    CHECK(off < off_before / 20.0);
+}
+
 TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {
     const Scene scene = balls_on_floor();
     AcceleratorCache accelerators(scene);
