@@ -204,9 +204,7 @@ RaytraceOptions parse_options(const std::vector<std::string>& arguments) {
     line.choice<Filter>("--filter", options.sampling.filter,
                         {{"box", Filter::box}, {"tent", Filter::tent}, {"mitchell", Filter::mitchell}});
     line.option("-o", options.output).option("--stats", options.stats).option("--estimates", options.estimates);
-    line.option("--error", [&options](const std::string& text) {
-        options.sampling.max_error = parse_error(text);
-    });
+    line.option("--error", [&options](const std::string& text) { options.sampling.max_error = parse_error(text); });
     line.option("--seed", [&options](const std::string& text) {
         options.sampling.seed = static_cast<std::uint32_t>(number_between("--seed", text, 0, 2'147'483'647));
     });

@@ -178,3 +178,53 @@ TEST_CASE("a lamp with a size is told by the sum of what it brings", "[inspect]"
     const std::string text = inspect_text(record);
     CHECK(text.find("(2, 3, 4)  one sample of each") != std::string::npos);
 }
+
+TEST_CASE("what is told of a path adds up to its light", "[inspect]") {
+    Scene scene = small_scene();
+    scene.background = {0.3F, 0.4F, 0.5F};
+    Fill shining{.color = k_black};
+    shining.emission = {9.0F, 8.0F, 7.0F};
+    scene.add(std::make_unique<Sphere>(glm::vec3(0.0F, 3.0F, 1.0F), 0.7F, shining));
+    scene.area_lights.push_back({SphereLight{{0.0F, 3.0F, 1.0F}, 0.7F}, shining.emission});
+    const auto accelerator = make_accelerator(Acceleration::none, scene.surfaces());
+    int short_paths = 0;
+    int lamps = 0;
+    for (int at = 0; at < 24 * 18; ++at) {
+        const PixelRecord record =
+            inspect_pixel(scene, scene.camera, *accelerator, Acceleration::none, options_of(13), at % 24, at / 24);
+        Color light = k_black;
+        Color weight = k_white;
+        int bounces = 0;
+        for (const RayNode* node = &record.eye; node != nullptr; ++bounces) {
+            if (!node->hit) {
+                light += weight * scene.background;
+                break;
+            }
+            REQUIRE(node->path.has_value());
+            if (bounces == 0 && node->hit->hit.front_face) {
+                light += weight * node->hit->hit.fill.emission;
+                lamps += node->hit->hit.fill.emission == k_black ? 0 : 1;
+            }
+            light += weight * node->path->lamps.value_or(k_black);
+            weight *= node->path->scatter ? node->path->scatter->weight : k_black;
+            node = node->bounces.empty() ? nullptr : &node->bounces.back();
+        }
+        if (bounces <= 3) {  // roulette was not played
+            CAPTURE(at);
+            CHECK_THAT(*record.color, IsNear(light, 1e-4F));
+            ++short_paths;
+        }
+    }
+    CHECK(short_paths > 100);
+    CHECK(lamps > 0);
+}
+
+TEST_CASE("a path is told hit by hit", "[inspect]") {
+    const PixelRecord record = inspected(small_scene(), Acceleration::none, options_of(13), 7, 12);
+    const std::string text = inspect_text(record);
+    CHECK(text.find("  lamps       (") != std::string::npos);
+    CHECK(text.find("by one sample of each, times the weight (1, 1, 1)") != std::string::npos);
+    CHECK(text.find("weight of the path behind it (0.72, 0.63, 0.18), before roulette") != std::string::npos);
+    CHECK(text.find("x ks") == std::string::npos);
+    CHECK(text.find("not kept") == std::string::npos);
+}

@@ -48,6 +48,12 @@ struct SearchCounts {
 
 struct LightRecord;
 
+/// What happened at a hit of a path, from step 13 on.
+struct PathStep {
+    std::optional<Color> lamps;            ///< what one sample of each lamp brought; nothing: nobody asked
+    std::optional<ScatterSample> scatter;  ///< nothing: the path ends there
+};
+
 /// One ray and everything that followed from it.
 struct RayNode {
     RayRole role = RayRole::eye;
@@ -63,6 +69,7 @@ struct RayNode {
     std::vector<LightRecord> lights;
     std::optional<Color> direct;       ///< step 03's sum over the lights that reach the hit
     std::optional<Color> transmitted;  ///< what shines through, weighed with the transmittance
+    std::optional<PathStep> path;      ///< nothing where no path has a hit
     std::optional<Color> local;        ///< all that the surface itself sends along the ray
     std::list<RayNode> bounces;
     std::optional<Color> color;    ///< nothing for a shadow ray, and where nobody saw it

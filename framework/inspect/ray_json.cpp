@@ -65,6 +65,20 @@ void write_lost(JsonWriter& json, const LostHit& lost) {
     json.end_object();
 }
 
+void write_path_step(JsonWriter& json, const PathStep& step) {
+    json.begin_object().key("lamps");
+    write_color(json, step.lamps);
+    json.key("scatter");
+    if (step.scatter) {
+        const ScatterSample& sample = *step.scatter;
+        json.begin_object().key("direction").vector(sample.direction).key("weight").vector(sample.weight);
+        json.key("pdf").number(sample.pdf).key("specular").flag(sample.specular).end_object();
+    } else {
+        json.null();
+    }
+    json.end_object();
+}
+
 void write_rays(JsonWriter& json, const std::list<RayNode>& rays) {
     json.begin_array();
     for (const RayNode& ray : rays) {
@@ -142,6 +156,12 @@ void write_ray(JsonWriter& json, const RayNode& node) {
     write_color(json, node.transmitted);
     json.key("local");
     write_color(json, node.local);
+    json.key("path");
+    if (node.path) {
+        write_path_step(json, *node.path);
+    } else {
+        json.null();
+    }
     json.line_break().key("bounces");
     write_rays(json, node.bounces);
     json.key("color");

@@ -124,6 +124,26 @@ void RayRecorder::shaded(RayNumber ray, const HitRecord& hit, const Color& local
     }
 }
 
+void RayRecorder::lamps_sampled(RayNumber ray, const Color& light) {
+    if (PathStep* const step = path_step(ray)) {
+        step->lamps = light;
+    }
+}
+
+void RayRecorder::scattered(RayNumber ray, const std::optional<ScatterSample>& sample) {
+    if (PathStep* const step = path_step(ray)) {
+        step->scatter = sample;
+    }
+}
+
+PathStep* RayRecorder::path_step(RayNumber ray) {
+    RayNode* const node = tree_.node(ray);
+    if (node == nullptr) {
+        return nullptr;
+    }
+    return &(node->path ? *node->path : node->path.emplace());
+}
+
 void RayRecorder::finish() {
     record_.counts = search_.total();
     record_.left_out = search_.left_out();

@@ -20,6 +20,8 @@ public:
     }
     void shaded(RayNumber ray, const HitRecord& hit, const Color& local,
                 const std::optional<Color>& transmitted) override;
+    void lamps_sampled(RayNumber ray, const Color& light) override;
+    void scattered(RayNumber ray, const std::optional<ScatterSample>& sample) override;
     void arrived(RayNumber first, RayNumber last, const Color& color) override { tree_.arrived(first, last, color); }
 
     /// Writes down what all rays cost together.
@@ -49,6 +51,7 @@ private:
     [[nodiscard]] bool search_any(RayNode* node, const SceneQuery& scene, const Ray& ray, float distance);
     void describe_hit_of(RayNode& node, const HitRecord& hit, const Surface* surface) const;
     void check(RayNode& node, float limit);
+    [[nodiscard]] PathStep* path_step(RayNumber ray);
 
     const Scene& scene_;
     const Accelerator& accelerator_;

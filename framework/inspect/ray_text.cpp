@@ -94,6 +94,25 @@ void write_light(TextLines& out, const PixelRecord& record, const LightRecord& l
     out.line(level + 1, "r " + brief(light.mirrored) + ", the light mirrored at the normal");
 }
 
+/// Along a path each hit adds its light times the weight so far, and takes its part of the weight.
+void write_path_step(TextLines& out, const PathStep& step, const HitRecord& hit, const Color& weight, int level) {
+    if (hit.fill.emission != k_black && hit.front_face) {
+        out.line(level, "shines", brief(hit.fill.emission) + ": a lamp");
+    }
+    if (step.lamps) {
+        out.line(level, "lamps", brief(*step.lamps) + " by one sample of each, times the weight " + brief(weight));
+    }
+    if (!step.scatter) {
+        out.line(level, "the path ends here");
+        return;
+    }
+    const ScatterSample& sample = *step.scatter;
+    out.line(level, "scattered",
+             "towards " + brief(sample.direction) + "  weight " + brief(sample.weight) + "  pdf " + brief(sample.pdf) +
+                 (sample.specular ? "  specular: no other direction" : ""));
+    out.line(level + 1, "weight of the path behind it " + brief(weight * sample.weight) + ", before roulette");
+}
+
 std::string color_words(const RayNode& node) {
     return node.color ? brief(*node.color) : node.followed_within ? "not seen" : "not kept";
 }
@@ -108,7 +127,7 @@ void write_sum(TextLines& out, const PixelRecord& record, const RayNode& node, i
     }
     const Fill& fill = node.hit->hit.fill;
     for (const RayNode& bounce : node.bounces) {
-        if (bounce.role == RayRole::reflect) {
+        if (bounce.role == RayRole::reflect && !node.path) {
             out.line(level, "reflected", color_words(bounce) + " x ks " + brief(fill.ks));
         }
     }
@@ -118,9 +137,7 @@ void write_sum(TextLines& out, const PixelRecord& record, const RayNode& node, i
     }
 }
 
-}  // namespace
-
-void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, int level) {
+void write_ray_of(TextLines& out, const PixelRecord& record, const RayNode& node, const Color& weight, int level) {
     out.line(level, title_of(node) + (node.role == RayRole::eye ? "" : ", depth " + std::to_string(node.depth)) +
                         ": from " + brief(node.ray.origin) + " towards " + brief(node.ray.direction));
     if (record.options.step > 1) {
@@ -138,16 +155,28 @@ void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, i
         for (const LightRecord& light : node.lights) {
             write_light(out, record, light, level + 1);
         }
+        if (node.path) {
+            write_path_step(out, *node.path, node.hit->hit, weight, level + 1);
+        }
+        const bool goes_on = node.path && node.path->scatter;
         for (const RayNode& bounce : node.bounces) {
-            write_ray(out, record, bounce, level + 1);
+            write_ray_of(out, record, bounce, goes_on ? weight * node.path->scatter->weight : weight, level + 1);
         }
         write_sum(out, record, node, level + 1);
     }
-    out.line(level + 1, "colour", color_words(node));
+    if (node.color || !follows_paths(record.options.step)) {
+        out.line(level + 1, "colour", color_words(node));
+    }
     if (node.followed_within) {
         out.line(level + 1, "",
                  "step 05 followed this ray itself and did not ask tracer.trace, so that only the sum is seen");
     }
+}
+
+}  // namespace
+
+void write_ray(TextLines& out, const PixelRecord& record, const RayNode& node, int level) {
+    write_ray_of(out, record, node, k_white, level);
 }
 
 }  // namespace raysteps

@@ -16,9 +16,9 @@
 namespace raysteps {
 namespace {
 
-constexpr int k_fine = 256;              // places along each side of a pixel
-constexpr int k_most_rounds = 16;        // of samples in one pixel
-constexpr std::size_t k_least = 16;      // samples, before they say how far they are off
+constexpr int k_fine = 256;          // places along each side of a pixel
+constexpr int k_most_rounds = 16;    // of samples in one pixel
+constexpr std::size_t k_least = 16;  // samples, before they say how far they are off
 constexpr float k_dark = 0.1F;
 
 float reach_of(Filter filter) {

@@ -76,7 +76,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator(const Scene& scene, RayCounter& rays, const StepOptions& options) {
-    if (options.step >= 13 && is_of_part_two(options.step)) {
+    if (follows_paths(options.step)) {
         return std::make_unique<PathIntegrator>(scene, rays, options.step);
     }
     switch (options.step) {

@@ -26,6 +26,9 @@ struct StepOptions {
 /// From step 12 on lamps may have a size, and so may the camera's lens.
 [[nodiscard]] constexpr bool has_area_lights(int step) { return is_of_part_two(step) && step >= 12; }
 
+/// From step 13 on light comes along paths.
+[[nodiscard]] constexpr bool follows_paths(int step) { return is_of_part_two(step) && step >= 13; }
+
 /// Which sample of a picture a primary ray is: its random numbers hang on nothing else.
 struct SampleId {
     std::uint32_t pixel = 0;  ///< another number for each pixel of each picture

@@ -27,12 +27,15 @@ public:
     [[nodiscard]] Color light_sample(const HitRecord& hit) override {
         Color color = k_black;
         sample_lamps(hit, [&](const Color& light, const LightSample& /*sample*/) { color += light; });
+        rays().lamps_sampled(next_.from, color);
         return color;
     }
 
     [[nodiscard]] std::vector<DirectSample> direct_samples(const HitRecord& hit) override {
         std::vector<DirectSample> samples;
+        Color color = k_black;
         sample_lamps(hit, [&](const Color& light, const LightSample& sample) {
+            color += light;
             if (light == k_black) {
                 return;
             }
@@ -43,6 +46,7 @@ public:
             const glm::vec3 direction = glm::normalize(sample.position - hit.position);
             samples.push_back({.light = light, .pdf = sample.pdf, .scatter_pdf = scatter_pdf(hit, direction)});
         });
+        rays().lamps_sampled(next_.from, color);
         return samples;
     }
 
@@ -52,6 +56,15 @@ public:
     }
 
     [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& hit) override {
+        std::optional<ScatterSample> sample = scatter_by_material(hit);
+        rays().scattered(next_.from, sample);
+        return sample;
+    }
+
+    [[nodiscard]] Color background() const override { return integrator_.scene().background; }
+
+private:
+    [[nodiscard]] std::optional<ScatterSample> scatter_by_material(const HitRecord& hit) {
         RandomStream random = integrator_.next_stream();
         switch (scattering_of(hit)) {
             case Scattering::mirror:
@@ -66,9 +79,6 @@ public:
         return scatter_diffuse(hit, random.next_2d());
     }
 
-    [[nodiscard]] Color background() const override { return integrator_.scene().background; }
-
-private:
     [[nodiscard]] Scattering scattering_of(const HitRecord& hit) const {
         return integrator_.step_ >= 14 ? hit.fill.scattering : Scattering::diffuse;
     }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/color.hpp"
+#include "core/scatter.hpp"
 #include "core/scene_query.hpp"
 #include "core/stats.hpp"
 
@@ -49,6 +50,10 @@ public:
     /// The light that the ray's hit sends along it; the part that shines through, from step 08 on.
     virtual void shaded(RayNumber /*ray*/, const HitRecord& /*hit*/, const Color& /*local*/,
                         const std::optional<Color>& /*transmitted*/) {}
+
+    /// At the ray's hit, along a path: what samples of lamps brought, and where the path goes on.
+    virtual void lamps_sampled(RayNumber /*ray*/, const Color& /*light*/) {}
+    virtual void scattered(RayNumber /*ray*/, const std::optional<ScatterSample>& /*sample*/) {}
 
     /// What the first of several rays brought; the others were followed within.
     virtual void arrived(RayNumber /*first*/, RayNumber /*last*/, const Color& /*color*/) {}

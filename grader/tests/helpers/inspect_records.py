@@ -19,7 +19,7 @@ def _ray(role: str, depth: int, origin: list[float], direction: list[float], **m
         "any": None,
     }
     ray |= {"counts": dict(_COUNTS), "boxes": [], "tests": [], "hit": None, "missed": None, "lights": [], "bounces": []}
-    ray |= {"direct": None, "transmitted": None, "local": None, "color": None}
+    ray |= {"direct": None, "transmitted": None, "local": None, "path": None, "color": None}
     return ray | more
 
 

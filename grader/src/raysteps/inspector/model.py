@@ -124,6 +124,24 @@ class LightShare:
 
 
 @dataclass
+class Scattered:
+    """Where a path goes on, and what light from there counts."""
+
+    direction: Triple
+    weight: Triple
+    pdf: Number
+    specular: bool
+
+
+@dataclass
+class PathStep:
+    """What happened at a hit of a path, from step 13 on."""
+
+    lamps: Triple | None  # what one sample of each lamp brought; None: nobody asked
+    scatter: Scattered | None  # None: the path ends there
+
+
+@dataclass
 class Ray:
     """One ray, and all that comes of it."""
 
@@ -142,6 +160,7 @@ class Ray:
     direct: Triple | None
     transmitted: Triple | None
     local: Triple | None
+    path: PathStep | None
     bounces: list["Ray"]
     color: Triple | None
 
@@ -259,3 +278,8 @@ class Record:
     def is_of_part_two(self) -> bool:
         """Where step 10 shows the colour, as render/integrator.hpp says."""
         return 10 <= self.step < 20
+
+    @property
+    def follows_paths(self) -> bool:
+        """Where light comes along paths, as render/integrator.hpp says."""
+        return self.is_of_part_two and self.step >= 13

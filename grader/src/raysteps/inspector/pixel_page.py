@@ -8,7 +8,7 @@ from types import MappingProxyType
 from raysteps.common.documents import plain
 from raysteps.common.files import write_out
 from raysteps.common.text import count
-from raysteps.inspector.model import BoxEvent, Hit, LightShare, Ray, Record, Way
+from raysteps.inspector.model import BoxEvent, Hit, LightShare, PathStep, Ray, Record, Way
 from raysteps.inspector.records import (
     EYE,
     Difference,
@@ -89,31 +89,49 @@ def _light(light: LightShare, key: Key, level: int) -> Iterator[Line]:
     yield Line((*key, f"terms{number}"), level + 1, text)
 
 
-def _ray(ray: Ray, key: Key, level: int, step: int) -> Iterator[Line]:
+def _path_words(step: PathStep | None) -> Iterator[tuple[str, str]]:
+    """What a path found at a hit, and where it went on."""
+    if step is None:
+        return
+    if step.lamps is not None:
+        yield "lamps", f"lamps {point(step.lamps)}, by one sample of each"
+    if step.scatter is None:
+        yield "scattered", "the path ends here"
+    else:
+        found = step.scatter
+        only = "  specular: no other direction" if found.specular else ""
+        words = f"scattered towards {point(found.direction)}  weight {point(found.weight)}  pdf {brief(found.pdf)}"
+        yield "scattered", words + only
+
+
+def _ray(ray: Ray, key: Key, level: int, record: Record) -> Iterator[Line]:
     depth = "" if ray.role == "eye" else f", depth {ray.depth}"
     text = f"{TITLES[ray.role]}{depth}: {point(ray.origin)} towards {point(ray.direction)}"
     yield Line((*key, "ray"), level, text)
-    if step > 1:
+    if record.step > 1:
         yield from _search(ray, key, level + 1)
         yield from _hit(ray, key, level + 1)
     for light in ray.lights:
         yield from _light(light, key, level + 1)
     if ray.direct is not None:
         yield Line((*key, "direct"), level + 1, f"sum over the lights {point(ray.direct)}")
+    for name, text in _path_words(ray.path):
+        yield Line((*key, name), level + 1, text)
     for way in _WAYS:
         for bounce in ray.bounces_of(way):
-            yield from _ray(bounce, (*key, way), level + 1, step)
+            yield from _ray(bounce, (*key, way), level + 1, record)
         if way == "refract" and ray.transmitted is not None and any(map(float, ray.transmitted)):
             yield Line((*key, "transmitted"), level + 1, f"shines through {point(ray.transmitted)}")
-    color = "unknown" if ray.color is None else point(ray.color)
-    yield Line((*key, "color"), level + 1, f"colour {color}")
+    if ray.color is not None or not record.follows_paths:
+        color = "unknown" if ray.color is None else point(ray.color)
+        yield Line((*key, "color"), level + 1, f"colour {color}")
 
 
 def lines_of(record: Record) -> list[Line]:
     """From the camera to the bytes."""
     frame = record.frame
     lines = [Line(("frame",), 0, f"camera: forward {point(frame.forward)}, up {point(frame.up)}")]
-    lines += _ray(record.ray, (EYE,), 0, record.step)
+    lines += _ray(record.ray, (EYE,), 0, record)
     if record.mapped is not None:
         what = "for a screen" if record.is_of_part_two else "tone mapping"
         lines.append(Line(("mapped",), 0, f"{what} {point(record.mapped)}"))
@@ -214,8 +232,9 @@ def _shadow_rays(light: LightShare, key: Key, surfaces: int) -> Iterator[PageRay
         yield shadow
 
 
-def page_ray(ray: Ray, surfaces: int, key: Key = ("eye",)) -> PageRay:
+def page_ray(ray: Ray, record: Record, key: Key = ("eye",)) -> PageRay:
     """The ray with its shadow rays and bounces."""
+    surfaces = record.surfaces
     depth = "" if ray.role == "eye" else f", depth {ray.depth}"
     made = _new(ray, key, TITLES[ray.role] + depth, surfaces)
     made.role = ray.way
@@ -229,10 +248,12 @@ def page_ray(ray: Ray, surfaces: int, key: Key = ("eye",)) -> PageRay:
     if ray.direct is not None:
         made.sums.append(f"sum over the lights {point(ray.direct)}")
     for bounce in ray.bounces:
-        made.children.append(page_ray(bounce, surfaces, (*key, bounce.way)))
+        made.children.append(page_ray(bounce, record, (*key, bounce.way)))
     if ray.transmitted is not None and any(map(as_float, ray.transmitted)):
         made.sums.append(f"shines through {point(ray.transmitted)}")
-    made.sums.append("colour unknown" if ray.color is None else f"colour {point(ray.color)}")
+    made.sums += [text for _, text in _path_words(ray.path)]
+    if ray.color is not None or not record.follows_paths:
+        made.sums.append("colour unknown" if ray.color is None else f"colour {point(ray.color)}")
     return made
 
 
@@ -257,7 +278,7 @@ def page_html(
     """The document; with a reference both trees stand side by side, and the first difference is marked. `pictures`: of
     which the pixel is one, by the names of the records."""
     records = {"mine": record} if reference is None else {"mine": record, "reference": reference}
-    trees = {name: page_ray(one.ray, one.surfaces) for name, one in records.items()}
+    trees = {name: page_ray(one.ray, one) for name, one in records.items()}
     pixel = record.pixel
     context = {
         "record": record,
