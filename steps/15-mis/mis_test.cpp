@@ -332,14 +332,19 @@ TEST_CASE("mis_path_light: a lamp that the path meets has the weight of the boun
 
 TEST_CASE("mis_path_light: the lamp's density is that of the hit before", "[15-mis][mis_path_light]") {
     const Stop lamp{.emission = Color(8.0F), .light_pdf = 3.0F, .scatters = false};
-    PathOfStops path({Stop{}, Stop{}, Stop{}, lamp});
-    static_cast<void>(light_along(path));
-    REQUIRE(path.hits.size() == 4);
-    REQUIRE_FALSE(path.asked_from.empty());
-    INFO("light_pdf(from, hit): from is where the ray started that met the lamp");
-    CHECK_THAT(path.asked_from.back(), IsNear(path.hits[2].position, 5e-3F));
-    INFO("and that ray is scattered_ray's: 0.001 off the surface");
-    CHECK_THAT(path.origins[1], IsNear(glm::vec3(0.999F, 0.0F, 0.0F), 1e-5F));
+    for (const std::size_t bounces : {1U, 2U, 3U}) {
+        CAPTURE(bounces);
+        std::vector<Stop> stops(bounces);
+        stops.push_back(lamp);
+        PathOfStops path(stops);
+        static_cast<void>(light_along(path));
+        REQUIRE(path.hits.size() == bounces + 1);
+        REQUIRE_FALSE(path.asked_from.empty());
+        INFO("light_pdf(from, hit): from is where the ray started that met the lamp");
+        CHECK_THAT(path.asked_from.back(), IsNear(path.hits[bounces - 1].position, 5e-3F));
+        INFO("and that ray is scattered_ray's: 0.001 off the surface");
+        CHECK_THAT(path.origins[1], IsNear(glm::vec3(0.999F, 0.0F, 0.0F), 1e-5F));
+    }
 }
 
 TEST_CASE("mis_path_light: lamps are sampled at each hit, once", "[15-mis][mis_path_light]") {

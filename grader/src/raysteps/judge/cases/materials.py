@@ -254,7 +254,7 @@ def _visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
     if not (is_uniform(across, 4 * bins) and has_mean(across, 0.5, math.sqrt(1 / 12))):
         return "microfacets do not lean evenly to both sides of the view"
     if not has_mean(up, 0.5, math.sqrt(1 / 12)):
-        return f"microfacets lean too much {'away from' if up.mean() < 0.5 else 'towards'} the view"
+        return f"microfacets lean too much {'towards' if up.mean() < 0.5 else 'away from'} the view"
     if not (is_uniform(up, 4 * bins) and is_uniform(shares, bins)):
         return "microfacets do not come as often as they are seen"
     return ""
