@@ -14,7 +14,7 @@ import platform
 import re
 import shutil
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
@@ -82,10 +82,16 @@ class Stamps:
             found[place] = self._marks[known]
         return found
 
-    def digest(self, name: str, belongs: Belongs) -> str:
-        """Of the machine, and of all files whose place `belongs`."""
-        files = {place: mark for place, mark in self.files().items() if belongs(place)}
-        return _digest([name, machine_mark(), str(self._project.root), files])
+    def digests(self, checks: Mapping[str, Belongs]) -> dict[str, str]:
+        """Of checks by name: of the machine, and of all files whose place belongs."""
+        if not checks:
+            return {}  # the machine is not asked before its packages are installed
+        files, start = self.files(), [machine_mark(), str(self._project.root)]
+        found: dict[Belongs, str] = {}
+        for belongs in checks.values():
+            if belongs not in found:
+                found[belongs] = _digest([place + mark for place, mark in files.items() if belongs(place)])
+        return {name: _digest([name, *start, found[belongs]]) for name, belongs in checks.items()}
 
     def has_passed(self, name: str, digest: str) -> bool:
         """Whether the check passed with just this."""
@@ -94,10 +100,12 @@ class Stamps:
         except (OSError, ValueError, KeyError, TypeError):
             return False
 
-    def keep(self, name: str, digest: str, belongs: Belongs) -> None:
-        """After the check has passed; not where a file was changed meanwhile, since nobody knows what it saw."""
-        if self.digest(name, belongs) == digest:
-            write_json(self._path(name), {"check": name, "inputs": digest})
+    def keep(self, checks: Mapping[str, Belongs], before: Mapping[str, str]) -> None:
+        """After these checks have passed; `before`: their digests as they began. Not where a file was changed
+        meanwhile, since nobody knows what it saw."""
+        for name, digest in self.digests(checks).items():
+            if before[name] == digest:
+                write_json(self._path(name), {"check": name, "inputs": digest})
 
     def _path(self, name: str) -> Path:
         return self._folder / f"{re.sub(r'[^a-z0-9]+', '-', name.lower()).strip('-')[:80]}.stamp.json"
