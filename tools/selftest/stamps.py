@@ -15,6 +15,7 @@ import re
 import shutil
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
@@ -33,6 +34,7 @@ _PROGRAMS = (
 )  # fmt: skip
 _SETTINGS = re.compile(r"(CMAKE|RAYSTEPS|PYTEST|CXX|CPP|CC|LD|CFLAGS|LDFLAGS|TMPDIR|LANG|LC|TZ)(_.*|FLAGS)?")
 _NO_SETTINGS = ("CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_BUILD_PARALLEL_LEVEL", "PYTEST_CURRENT_TEST")
+_PRINTED = (1, 2)
 _PACKAGES = Path("/var/lib/dpkg/status")
 
 
@@ -69,13 +71,16 @@ class Stamps:
 
     def files(self) -> dict[str, str]:
         """All files of the repository as they are now, with marks of their contents: what git tracks, and new files
-        that it does not ignore."""
+        that it does not ignore, but for one that this program itself prints to."""
         found = {}
+        own = list(_printed_to())
         for place in map(PurePosixPath.as_posix, places(self._project.root)):
             path = self._project.root / place
             if _is_made(place) or not path.is_file():
                 continue
             status = path.stat()
+            if any(os.path.samestat(status, one) for one in own):
+                continue
             known = (place, status.st_mtime_ns, status.st_size)
             if known not in self._marks:
                 self._marks[known] = hashlib.sha256(path.read_bytes()).hexdigest()
@@ -109,6 +114,13 @@ class Stamps:
 
     def _path(self, name: str) -> Path:
         return self._folder / f"{re.sub(r'[^a-z0-9]+', '-', name.lower()).strip('-')[:80]}.stamp.json"
+
+
+def _printed_to() -> Iterator[os.stat_result]:
+    """Where stdout and stderr go: `test > test.log` changes that file all the time."""
+    for file in _PRINTED:
+        with suppress(OSError):
+            yield os.fstat(file)
 
 
 def _is_made(place: str) -> bool:
