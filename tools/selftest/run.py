@@ -135,11 +135,13 @@ def grade_checks(project: Project, console: Console, inputs: Callable[..., Belon
             "pages of mistakes match the catalogue",
             lambda: _mistakes(project),
             inputs(out_of_date.__module__, texts=True),
+            beside=True,
         ),
         Check(
             "figures of the handouts are up to date",
             lambda: _figures(project),
             inputs(old_figures.__module__, texts=True),
+            beside=True,
         ),
     ]
 
