@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from raysteps.judge.cases.path_tracing import FUNCTIONS, mean_light
-from raysteps.judge.functions import Function
+from raysteps.judge.functions import Case, Function
 from raysteps.judge.protocol import Fill, Hit, Inputs, Vec, Whole, text
 from raysteps.judge.scripted_tracer import PathHit, PathScript, Scatter
 from raysteps.judge.statistics import Numbers
@@ -38,7 +38,7 @@ def _right(seed: int = 13) -> Numbers:
 
 
 def _verdict(function: Function, inputs: Inputs, right: str, line: str) -> str:
-    return str(function.answer.verdict(function.name, inputs, right, line).problem)
+    return str(Case(function.name, "", inputs).verdict(function.answer, right, line).problem)
 
 
 _DIRECTION: Inputs = {"normal": Vec(_UP), "seed": Whole(1), "times": Whole(_TIMES)}

@@ -24,6 +24,7 @@ from raysteps.judge.protocol import (
     Fill,
     Hit,
     Inputs,
+    ProtocolError,
     Ray,
     Real,
     TokenReader,
@@ -86,10 +87,7 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
 
 
 def _read_directions(tokens: TokenReader) -> Numbers:
-    found: list[Vector] = []
-    while not tokens.at_end() and len(found) <= _MOST:
-        found.append(tokens.vector())
-    return np.array(found, dtype=np.float64).reshape(-1, 3)
+    return tokens.rows(3, _MOST)
 
 
 def _words_of_directions(directions: Numbers) -> str:
@@ -192,14 +190,10 @@ class _Samples:
 
 
 def _read_samples(tokens: TokenReader) -> _Samples:
-    rows: list[list[float]] = []
-    nothing = 0
-    while not tokens.at_end() and len(rows) + nothing <= _MOST:
-        if tokens.flag():
-            rows.append([*tokens.vector(), *tokens.vector(), tokens.real(), float(tokens.flag())])
-        else:
-            nothing += 1
-    return _Samples(nothing, np.array(rows, dtype=np.float64).reshape(-1, 8))
+    nothing, rows = tokens.optional_rows(8, _MOST)
+    if not np.isin(rows[:, 7], (0, 1)).all():
+        raise ProtocolError("the answer holds another word where a flag belongs")
+    return _Samples(nothing, rows)
 
 
 def _words_of_samples(samples: _Samples) -> str:
