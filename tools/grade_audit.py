@@ -304,14 +304,15 @@ def _graded(
     sandbox: Sandbox,
     say: ProgressCallback,
 ) -> list[list[ObservedGrade]]:
-    """Several rounds at a time, each on one processor: the slowest step of one holds up no other."""
+    """Several rounds at a time, each on one processor: the slowest step of one holds up no other. One more than there
+    are processors, since only one of them at a time judges, which is Python."""
 
     def grade(numbered: tuple[int, Round]) -> list[ObservedGrade]:
         number, handed_in = numbered
         say(f"{what} {number} of {len(rounds)}")
         return grade_round(kit, handed_in, sandbox, seed=seed, only=only)
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with ThreadPoolExecutor((os.cpu_count() or 1) + 1) as pool:
         return list(pool.map(grade, enumerate(rounds, start=1)))
 
 

@@ -184,8 +184,8 @@ TEST_CASE("what is told of a path adds up to its light", "[inspect]") {
     scene.background = {0.3F, 0.4F, 0.5F};
     Fill shining{.color = k_black};
     shining.emission = {9.0F, 8.0F, 7.0F};
-    scene.add(std::make_unique<Sphere>(glm::vec3(0.0F, 3.0F, 1.0F), 0.7F, shining));
-    scene.area_lights.push_back({SphereLight{{0.0F, 3.0F, 1.0F}, 0.7F}, shining.emission});
+    scene.add(std::make_unique<Sphere>(glm::vec3(0.0F, 1.5F, 1.0F), 0.5F, shining));
+    scene.area_lights.push_back({SphereLight{{0.0F, 1.5F, 1.0F}, 0.5F}, shining.emission});
     const auto accelerator = make_accelerator(Acceleration::none, scene.surfaces());
     int short_paths = 0;
     int lamps = 0;
@@ -220,8 +220,9 @@ TEST_CASE("what is told of a path adds up to its light", "[inspect]") {
 }
 
 TEST_CASE("a path is told hit by hit", "[inspect]") {
-    const PixelRecord record = inspected(small_scene(), Acceleration::none, options_of(13), 7, 12);
+    const PixelRecord record = inspected(small_scene(), Acceleration::none, options_of(13), 12, 16);
     const std::string text = inspect_text(record);
+    INFO(text);
     CHECK(text.find("  lamps       (") != std::string::npos);
     CHECK(text.find("by one sample of each, times the weight (1, 1, 1)") != std::string::npos);
     CHECK(text.find("weight of the path behind it (0.72, 0.63, 0.18), before roulette") != std::string::npos);

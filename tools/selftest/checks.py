@@ -47,15 +47,16 @@ class _Done:
 
 def _done(check: Check, stamps: Stamps) -> _Done:
     start = time.monotonic()
-    digest = None if check.inputs is None else stamps.digest(check.name, check.inputs)
-    if digest is not None and stamps.has_passed(check.name, digest):
+    inputs = {} if check.inputs is None else {check.name: check.inputs}
+    digests = stamps.digests(inputs)
+    if any(stamps.has_passed(name, digest) for name, digest in digests.items()):
         return _Done(check, Report("passed", UNCHANGED), 0.0)
     try:
         report = check.run()
     except Exception as error:
         report = Report("failed", f"{type(error).__name__}: {error}")
-    if report.verdict == "passed" and check.inputs is not None and digest is not None:
-        stamps.keep(check.name, digest, check.inputs)
+    if report.verdict == "passed":
+        stamps.keep(inputs, digests)
     return _Done(check, report, time.monotonic() - start)
 
 

@@ -101,7 +101,7 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
     sources = Sources(project, stamps.files())
     inputs = {place: sources.of_test(place).belongs for place in sources.tests()}
     names = {place: [f"{mark}: {place}" for mark in marks] for place in inputs}
-    digests = {name: stamps.digest(name, inputs[place]) for place in names for name in names[place]}
+    digests = stamps.digests({name: inputs[place] for place in names for name in names[place]})
     changed = [place for place in names if not all(stamps.has_passed(name, digests[name]) for name in names[place])]
     if not changed:
         return Report("passed", UNCHANGED)
@@ -117,10 +117,8 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
         named = json.loads(failed.read_text("utf-8")) if failed.is_file() else ()
         wrong = {name.partition("::")[0] for name in named}
     ended = not outcome.timed_out and (outcome.code in (0, _NO_TESTS) or (outcome.code == 1 and wrong))
-    for place, file in files.items():
-        if ended and file not in wrong:
-            for name in names[place]:
-                stamps.keep(name, digests[name], inputs[place])
+    right = [place for place, file in files.items() if ended and file not in wrong]
+    stamps.keep({name: inputs[place] for place in right for name in names[place]}, digests)
     if ended and not wrong:
         same = len(inputs) - len(changed)
         return Report("passed", f"{same} of {len(inputs)} files are as before" if same else "")
@@ -137,11 +135,13 @@ def grade_checks(project: Project, console: Console, inputs: Callable[..., Belon
             "pages of mistakes match the catalogue",
             lambda: _mistakes(project),
             inputs(out_of_date.__module__, texts=True),
+            beside=True,
         ),
         Check(
             "figures of the handouts are up to date",
             lambda: _figures(project),
             inputs(old_figures.__module__, texts=True),
+            beside=True,
         ),
     ]
 

@@ -14,7 +14,8 @@ import platform
 import re
 import shutil
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
@@ -33,6 +34,7 @@ _PROGRAMS = (
 )  # fmt: skip
 _SETTINGS = re.compile(r"(CMAKE|RAYSTEPS|PYTEST|CXX|CPP|CC|LD|CFLAGS|LDFLAGS|TMPDIR|LANG|LC|TZ)(_.*|FLAGS)?")
 _NO_SETTINGS = ("CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_BUILD_PARALLEL_LEVEL", "PYTEST_CURRENT_TEST")
+_PRINTED = (1, 2)
 _PACKAGES = Path("/var/lib/dpkg/status")
 
 
@@ -69,23 +71,32 @@ class Stamps:
 
     def files(self) -> dict[str, str]:
         """All files of the repository as they are now, with marks of their contents: what git tracks, and new files
-        that it does not ignore."""
+        that it does not ignore, but for one that this program itself prints to."""
         found = {}
+        own = list(_printed_to())
         for place in map(PurePosixPath.as_posix, places(self._project.root)):
             path = self._project.root / place
             if _is_made(place) or not path.is_file():
                 continue
             status = path.stat()
+            if any(os.path.samestat(status, one) for one in own):
+                continue
             known = (place, status.st_mtime_ns, status.st_size)
             if known not in self._marks:
                 self._marks[known] = hashlib.sha256(path.read_bytes()).hexdigest()
             found[place] = self._marks[known]
         return found
 
-    def digest(self, name: str, belongs: Belongs) -> str:
-        """Of the machine, and of all files whose place `belongs`."""
-        files = {place: mark for place, mark in self.files().items() if belongs(place)}
-        return _digest([name, machine_mark(), str(self._project.root), files])
+    def digests(self, checks: Mapping[str, Belongs]) -> dict[str, str]:
+        """Of checks by name: of the machine, and of all files whose place belongs."""
+        if not checks:
+            return {}  # the machine is not asked before its packages are installed
+        files, start = self.files(), [machine_mark(), str(self._project.root)]
+        found: dict[Belongs, str] = {}
+        for belongs in checks.values():
+            if belongs not in found:
+                found[belongs] = _digest([place + mark for place, mark in files.items() if belongs(place)])
+        return {name: _digest([name, *start, found[belongs]]) for name, belongs in checks.items()}
 
     def has_passed(self, name: str, digest: str) -> bool:
         """Whether the check passed with just this."""
@@ -94,13 +105,22 @@ class Stamps:
         except (OSError, ValueError, KeyError, TypeError):
             return False
 
-    def keep(self, name: str, digest: str, belongs: Belongs) -> None:
-        """After the check has passed; not where a file was changed meanwhile, since nobody knows what it saw."""
-        if self.digest(name, belongs) == digest:
-            write_json(self._path(name), {"check": name, "inputs": digest})
+    def keep(self, checks: Mapping[str, Belongs], before: Mapping[str, str]) -> None:
+        """After these checks have passed; `before`: their digests as they began. Not where a file was changed
+        meanwhile, since nobody knows what it saw."""
+        for name, digest in self.digests(checks).items():
+            if before[name] == digest:
+                write_json(self._path(name), {"check": name, "inputs": digest})
 
     def _path(self, name: str) -> Path:
         return self._folder / f"{re.sub(r'[^a-z0-9]+', '-', name.lower()).strip('-')[:80]}.stamp.json"
+
+
+def _printed_to() -> Iterator[os.stat_result]:
+    """Where stdout and stderr go: `test > test.log` changes that file all the time."""
+    for file in _PRINTED:
+        with suppress(OSError):
+            yield os.fstat(file)
 
 
 def _is_made(place: str) -> bool:

@@ -31,8 +31,10 @@ def _source(case: dict[str, Any]) -> str:
 
 
 def _grade(kit: BuiltKit, make: MakeSubmission, out: Path, sources: Sources) -> Results:
-    """In one process, which is quicker: what a mistake looks like does not depend on it."""
-    submission, settings = load_submission(make("held-out", sources), kit.steps), Settings(only=tuple(sources))
+    """In one process, and without the smallest wrong cases, which is quicker: what a mistake looks like does not depend
+    on it."""
+    submission = load_submission(make("held-out", sources), kit.steps)
+    settings = Settings("diagnosis", only=tuple(sources))
     return grade_submission(kit.in_one_process(), submission, settings, find_sandbox(), out)
 
 

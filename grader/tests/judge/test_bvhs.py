@@ -7,6 +7,7 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
 from raysteps.judge.bvhs import BVH, MOST_COST, MOST_LEVELS, MOST_NODES, Bvh, BvhNode, bvh_cost
+from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Box, Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
 
@@ -21,7 +22,7 @@ _HUNDRED: Inputs = {"surfaces": Surfaces(tuple(Sphere((float(i), 0.0, 0.0), 0.25
 
 
 def _problem(line: str, inputs: Inputs = _TWO) -> str:
-    return BVH.verdict("build_bvh", inputs, line if inputs is not _TWO else _GOOD, line).problem
+    return Case("build_bvh", "", inputs).verdict(BVH, line if inputs is not _TWO else _GOOD, line).problem
 
 
 def _row(leaf: int, step: int = 1) -> str:
@@ -111,8 +112,8 @@ def test_the_levels_are_counted() -> None:
         inputs: Inputs = {"surfaces": Surfaces((Sphere((4.0, 4.0, 4.0), 1.0),) * levels)}
         line = f"{chain(levels)} {levels} {' '.join(map(str, range(levels)))}"
         good = f"bvh 1 0 0 0 9 9 9 0 {levels} {levels} {' '.join(map(str, range(levels)))}"
-        assert said in BVH.verdict("build_bvh", inputs, good, line).problem
-        assert bool(BVH.verdict("build_bvh", inputs, good, line).problem) == bool(said)
+        assert said in Case("build_bvh", "", inputs).verdict(BVH, good, line).problem
+        assert bool(Case("build_bvh", "", inputs).verdict(BVH, good, line).problem) == bool(said)
 
 
 def test_the_cost_of_a_tree() -> None:
@@ -126,7 +127,7 @@ def test_the_cost_of_a_tree() -> None:
 
 def test_many_surfaces_must_be_divided_well() -> None:
     def verdict(line: str) -> Verdict:
-        return BVH.verdict("build_bvh", _HUNDRED, _row(1), line)
+        return Case("build_bvh", "", _HUNDRED).verdict(BVH, _row(1), line)
 
     for leaf in (1, 2, 4, 8):
         assert verdict(_row(leaf)).problem == "", "any sorted row is cheap enough"
@@ -144,7 +145,7 @@ def test_many_surfaces_must_be_divided_well() -> None:
 
 def test_a_tree_that_was_too_large_to_tell() -> None:
     for excess, said in (("nodes", "5000 nodes"), ("surfaces", "50000 surfaces")):
-        verdict = BVH.verdict("build_bvh", _TWO, _GOOD, f"large {excess}")
+        verdict = Case("build_bvh", "", _TWO).verdict(BVH, _GOOD, f"large {excess}")
         assert said in verdict.problem
         assert isinstance(verdict.problem, TooLarge)
 
@@ -159,7 +160,7 @@ def test_the_largest_tree_is_judged_at_once() -> None:
 def test_no_surfaces() -> None:
     inputs: Inputs = {"surfaces": Surfaces(())}
     assert _problem("bvh 0 0", inputs) == ""
-    assert BVH.verdict("build_bvh", inputs, "bvh 0 0", f"bvh 1 {_ALL} 0 0 0").problem != ""
+    assert Case("build_bvh", "", inputs).verdict(BVH, "bvh 0 0", f"bvh 1 {_ALL} 0 0 0").problem != ""
 
 
 def test_a_flat_triangle_may_have_a_flat_box() -> None:
@@ -169,4 +170,4 @@ def test_a_flat_triangle_may_have_a_flat_box() -> None:
 
 def test_a_reference_that_loses_a_surface_is_the_kits_fault() -> None:
     with pytest.raises(GraderFault, match="in no leaf"):
-        BVH.verdict("build_bvh", _TWO, f"bvh 1 {_ALL} 0 1 2 0 1", _GOOD)
+        Case("build_bvh", "", _TWO).verdict(BVH, f"bvh 1 {_ALL} 0 1 2 0 1", _GOOD)

@@ -21,7 +21,7 @@ def _cases(step: str, function: str, amount: int = 20) -> list[Case]:
 
 
 def _credit(step: str, case: Case, right: str, given: str) -> float:
-    return functions_of(step)[case.function].answer.verdict(case.function, case.inputs, right, given).credit
+    return case.verdict(functions_of(step)[case.function].answer, right, given).credit
 
 
 def test_a_shadow_ray() -> None:

@@ -62,7 +62,7 @@ class _Honest:
         source = self._solved[step.id]
         assert source.count(old) == 1
         path = self._make("honest", {step.id: source.replace(old, new)})
-        submission, settings = load_submission(path, self._kit.steps), Settings(only=(step.id,))
+        submission, settings = load_submission(path, self._kit.steps), Settings("diagnosis", only=(step.id,))
         return grade_submission(self._kit, submission, settings, find_sandbox(), self._out).steps[0]
 
 

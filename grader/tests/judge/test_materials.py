@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from raysteps.judge.cases.materials import FUNCTIONS
+from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Fill, Hit, Inputs, Real, Vec, Whole, text
 from raysteps.judge.statistics import Numbers
 
@@ -44,7 +45,7 @@ def _all_of_them() -> Numbers:
 
 
 def _said(name: str, inputs: Inputs, right: str, line: str) -> str:
-    return str(_FUNCTIONS[name].answer.verdict(name, inputs, right, line).problem)
+    return Case(name, "", inputs).verdict(_FUNCTIONS[name].answer, right, line).problem
 
 
 _VX, _VY, _VZ = (float(x) for x in _VIEW)

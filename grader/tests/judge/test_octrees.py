@@ -7,6 +7,7 @@ import pytest
 
 from raysteps.common.errors import GraderFault
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
+from raysteps.judge.functions import Case
 from raysteps.judge.octrees import DEEPEST, MOST_ENTRIES, MOST_NODES, TREE
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
@@ -27,7 +28,7 @@ _GOOD_HUNDRED = f"tree {_AROUND_HUNDRED} 0 2 {_HALVES[0]} {_HALVES[1]}"
 
 
 def _problem(line: str, inputs: Inputs = _TWO) -> str:
-    return TREE.verdict("build_octree", inputs, line if inputs is not _TWO else _GOOD, line).problem
+    return Case("build_octree", "", inputs).verdict(TREE, line if inputs is not _TWO else _GOOD, line).problem
 
 
 def _chain(nodes: int) -> str:
@@ -97,7 +98,7 @@ def test_a_forged_chain_takes_little_memory() -> None:
     """Each of its boxes has other surfaces around it; the first ones are not too many to be read."""
     for line in (_chain(DEEPEST), _chain(20000)):
         tracemalloc.start()
-        TREE.verdict("build_octree", _TWO, _GOOD, line)
+        Case("build_octree", "", _TWO).verdict(TREE, _GOOD, line)
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         assert peak < 30e6
@@ -112,7 +113,7 @@ def test_the_largest_tree_is_judged_at_once() -> None:
     start = time.process_time()
     TREE.parse(line)
     read = time.process_time()
-    verdict = TREE.verdict("build_octree", _HUNDRED, _GOOD_HUNDRED, line)  # which reads it, too
+    verdict = Case("build_octree", "", _HUNDRED).verdict(TREE, _GOOD_HUNDRED, line)  # which reads it, too
     assert time.process_time() - read < 12 * (read - start), "judging a tree takes much longer than reading it"
     assert verdict.actual.startswith(f"a tree of {MOST_NODES} boxes")
 
@@ -126,7 +127,7 @@ def test_the_largest_tree_is_judged_at_once() -> None:
     ],
 )
 def test_a_tree_that_was_too_large_to_tell(excess: str, said: str) -> None:
-    verdict = TREE.verdict("build_octree", _TWO, _GOOD, f"large {excess}")
+    verdict = Case("build_octree", "", _TWO).verdict(TREE, _GOOD, f"large {excess}")
     assert said in verdict.problem
     assert isinstance(verdict.problem, TooLarge)
     assert said.removesuffix(" for 2 surfaces") in verdict.actual
@@ -134,7 +135,7 @@ def test_a_tree_that_was_too_large_to_tell(excess: str, said: str) -> None:
 
 def test_many_small_surfaces_must_be_divided() -> None:
     def verdict(line: str) -> Verdict:
-        return TREE.verdict("build_octree", _HUNDRED, _GOOD_HUNDRED, line)
+        return Case("build_octree", "", _HUNDRED).verdict(TREE, _GOOD_HUNDRED, line)
 
     assert verdict(_GOOD_HUNDRED).problem == ""
     whole = verdict(f"{_WHOLE_HUNDRED} 0")
@@ -149,7 +150,7 @@ def test_no_surfaces() -> None:
     inputs: Inputs = {"surfaces": Surfaces(())}
     empty = "tree inf inf inf -inf -inf -inf 0 0"
     assert _problem(empty, inputs) == ""
-    assert TREE.verdict("build_octree", inputs, empty, f"tree {_ALL} 0 1 {_ALL} 0 0").problem != ""
+    assert Case("build_octree", "", inputs).verdict(TREE, empty, f"tree {_ALL} 0 1 {_ALL} 0 0").problem != ""
 
 
 def test_a_triangle_through_a_box_without_a_corner_in_it() -> None:
@@ -157,9 +158,9 @@ def test_a_triangle_through_a_box_without_a_corner_in_it() -> None:
     good = "tree -4 0 0 4 4 0 1 0 0"
     parts = ["-4 0 -1 -2 4 1", "-2 0 -1 2 4 1", "2 0 -1 4 4 1"]
     lost = f"tree -4 0 -1 4 4 1 0 3 {parts[0]} 1 0 0 {parts[1]} 0 0 {parts[2]} 1 0 0"
-    assert "no box" in TREE.verdict("build_octree", inputs, good, lost).problem
+    assert "no box" in Case("build_octree", "", inputs).verdict(TREE, good, lost).problem
 
 
 def test_a_reference_that_loses_a_surface_is_the_kits_fault() -> None:
     with pytest.raises(GraderFault, match="in no box"):
-        TREE.verdict("build_octree", _TWO, f"tree {_WEST} 1 0 0", _GOOD)
+        Case("build_octree", "", _TWO).verdict(TREE, f"tree {_WEST} 1 0 0", _GOOD)

@@ -7,7 +7,7 @@ import pytest
 
 from raysteps.judge.cases.mis import mean_of_plates
 from raysteps.judge.cases.path_tracing import FUNCTIONS, mean_light
-from raysteps.judge.functions import Function
+from raysteps.judge.functions import Case, Function
 from raysteps.judge.protocol import Fill, Hit, Inputs, Vec, Whole, text
 from raysteps.judge.scripted_tracer import (
     DirectSamples,
@@ -48,7 +48,7 @@ def _right(seed: int = 13) -> Numbers:
 
 
 def _verdict(function: Function, inputs: Inputs, right: str, line: str) -> str:
-    return str(function.answer.verdict(function.name, inputs, right, line).problem)
+    return str(Case(function.name, "", inputs).verdict(function.answer, right, line).problem)
 
 
 _DIRECTION: Inputs = {"normal": Vec(_UP), "seed": Whole(1), "times": Whole(_TIMES)}

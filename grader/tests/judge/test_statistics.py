@@ -77,7 +77,7 @@ def _verdict(points: Numbers, inputs: Inputs, *, last: Numbers | None = None) ->
         return " ".join(f"{len(one)} " + " ".join(text(float(x)) for x in one.ravel()) for one in times)
 
     expected = line(_right(_whole(inputs, "side"), _whole(inputs, "times")))
-    return _STRATIFIED.answer.verdict(_STRATIFIED.name, inputs, expected, line(points))
+    return Case(_STRATIFIED.name, "", inputs).verdict(_STRATIFIED.answer, expected, line(points))
 
 
 def _whole(inputs: Inputs, name: str) -> int:
@@ -181,7 +181,7 @@ def test_odd_sides_are_right_too(side: int) -> None:
 def test_whatever_a_line_holds_it_is_an_answer(line: str) -> None:
     inputs = _inputs(_SIDE, 2)
     right = " ".join("16 " + " ".join(text(float(x)) for x in one.ravel()) for one in _right(_SIDE, 2)[[0, 1, 0]])
-    assert _STRATIFIED.answer.verdict(_STRATIFIED.name, inputs, right, line).problem
+    assert Case(_STRATIFIED.name, "", inputs).verdict(_STRATIFIED.answer, right, line).problem
 
 
 def test_the_same_stream_must_give_the_same_points() -> None:

@@ -139,6 +139,18 @@ def test_a_check_runs_again_only_when_an_input_changed(small: Project) -> None:
     assert len(ran) == 4
 
 
+def test_what_it_prints_to_is_no_input(small: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[str] = []
+    with (small.root / "all.cpp").open("w", encoding="utf-8") as printed, monkeypatch.context() as patch:
+        patch.setattr(stamps, "_PRINTED", (printed.fileno(),))
+        for _ in range(2):
+            print("passed: it holds", file=printed, flush=True)
+            _run(_counting(ran), small)
+    assert len(ran) == 1
+    _run(_counting(ran), small)
+    assert len(ran) == 2, "anybody else's file is one"
+
+
 def test_another_machine_is_another_matter(small: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     ran: list[str] = []
     _run(_counting(ran), small)

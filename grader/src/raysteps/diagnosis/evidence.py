@@ -79,7 +79,7 @@ def _said(function: Function, case: Case, right: str, reply: Reply) -> ObservedA
         return ObservedAnswers("", reply.outcome)
     if reply.line == right:
         return None
-    problem = function.answer.verdict(case.function, case.inputs, right, reply.line).problem
+    problem = case.verdict(function.answer, right, reply.line).problem
     if not problem:
         return None
     long = len(reply.line) > _LONGEST

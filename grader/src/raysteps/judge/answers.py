@@ -69,14 +69,20 @@ class Answer(Generic[T]):
             raise GraderFault(f"{name}: the reference fails: {problem}; given {shorten(given, 1000)}")
         return value
 
-    def verdict(self, name: str, inputs: Inputs, expected_line: str, actual_line: str) -> Verdict:
+    def measured(self, name: str, inputs: Inputs, line: str) -> "Measured[T]":
+        """What all others are compared with."""
+        value = self.reference(name, inputs, line)
+        shown = self.words(value)
+        constant = shown if self.constant is None else self.constant(value)
+        right = self.near(value) if self.near is not None else None
+        return Measured(line, value, Verdict("", shown, shown, 1.0, constant, right, right))
+
+    def verdict(self, inputs: Inputs, reference: "Measured[T]", actual_line: str) -> Verdict:
         """Compares; whatever the student's line holds, it is an answer, and perhaps a wrong one."""
-        expected = self.reference(name, inputs, expected_line)
-        shown = self.words(expected)
-        constant = shown if self.constant is None else self.constant(expected)
-        right = self.near(expected) if self.near is not None else None
-        if actual_line == expected_line:  # as most are, and this one was measured
-            return Verdict("", shown, shown, 1.0, constant, right, right)
+        expected, whole = reference.value, reference.verdict
+        if actual_line == reference.line:  # as most are, and this one was measured
+            return whole
+        shown, constant, right = whole.expected, whole.constant, whole.right
         if actual_line.startswith("threw"):
             said = printable(actual_line.removeprefix("threw").strip())
             return Verdict(
@@ -97,6 +103,15 @@ class Answer(Generic[T]):
         except Exception as error:  # the reference's answer was read just so: this is about the student's
             said = shorten(str(error), 200)
             return Verdict("no proper answer came", shown, said, constant=constant, right=right)
+
+
+@dataclass(frozen=True)
+class Measured(Generic[T]):
+    """A line of the reference's, which is right by its own measure."""
+
+    line: str
+    value: T
+    verdict: Verdict
 
 
 def read_vector(tokens: TokenReader) -> Vector:

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from raysteps.common.vectors import Vector
-from raysteps.judge.protocol import TokenReader, Whole, f32, text, vector_words
+from raysteps.judge.protocol import ProtocolError, TokenReader, Whole, f32, text, vector_words
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers
 
@@ -21,10 +20,7 @@ def draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
 
 def read_directions(tokens: TokenReader) -> Numbers:
     """Row by row."""
-    found: list[Vector] = []
-    while not tokens.at_end() and len(found) <= _MOST:
-        found.append(tokens.vector())
-    return np.array(found, dtype=np.float64).reshape(-1, 3)
+    return tokens.rows(3, _MOST)
 
 
 def _words_of(v: Sequence[float] | Numbers) -> str:
@@ -80,15 +76,10 @@ def read_sample(tokens: TokenReader) -> list[float] | None:
 
 def read_samples(tokens: TokenReader) -> Samples:
     """All that follow."""
-    rows: list[list[float]] = []
-    nothing = 0
-    while not tokens.at_end() and len(rows) + nothing <= _MOST:
-        row = read_sample(tokens)
-        if row is None:
-            nothing += 1
-        else:
-            rows.append(row)
-    return Samples(nothing, np.array(rows, dtype=np.float64).reshape(-1, 8))
+    nothing, rows = tokens.optional_rows(8, _MOST)
+    if not np.isin(rows[:, 7], (0, 1)).all():
+        raise ProtocolError("the answer holds another word where a flag belongs")
+    return Samples(nothing, rows)
 
 
 def words_of_samples(samples: Samples) -> str:

@@ -64,7 +64,7 @@ def read_estimates(tokens: TokenReader) -> Estimates:
     size, cost = tokens.whole(1, 1 << 30), tokens.whole(0, 1 << 50)
     if tokens.whole() != BATCHES:
         raise ProtocolError("the answer holds another number of batches")
-    batches = np.array([tokens.vector() for _ in range(BATCHES)], dtype=np.float64)
+    batches = tokens.reals(3 * BATCHES).reshape(BATCHES, 3)
     return Estimates(size, cost, batches, tokens.vector(), tokens.vector())
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.project import here
-from raysteps.judge.answers import Answer
+from raysteps.judge.answers import Answer, Measured, Verdict
 from raysteps.judge.protocol import Inputs, text
 from raysteps.judge.random_source import RandomSource
 
@@ -59,6 +59,16 @@ class Case:
     def _words(self) -> str:
         numbers = [text(n) for value in self.inputs.values() for n in value.numbers()]
         return " ".join([self.function, *numbers])
+
+    @cached_property
+    def _known(self) -> dict[str, Measured[Any]]:
+        return {}
+
+    def verdict(self, answer: Answer[Any], expected: str, actual: str) -> Verdict:
+        """Of a line, beside the reference's, which is measured once: a class is asked the same questions."""
+        if expected not in self._known:
+            self._known[expected] = answer.measured(self.function, self.inputs, expected)
+        return answer.verdict(self.inputs, self._known[expected], actual)
 
     def line(self, number: int) -> str:
         """As the worker reads it."""

@@ -9,9 +9,10 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Protocol, TypeAlias
+from typing import NoReturn, Protocol, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from raysteps.common.vectors import Vector, add, dot
 
@@ -19,6 +20,7 @@ from raysteps.common.vectors import Vector, add, dot
 # that is in double precision.
 
 Number: TypeAlias = float | int
+Numbers: TypeAlias = NDArray[np.float64]
 
 _pack, _unpack = struct.Struct("f").pack, struct.Struct("f").unpack
 _pack_vector, _unpack_vector = struct.Struct("3f").pack, struct.Struct("3f").unpack
@@ -362,6 +364,7 @@ class Box:
 # Reads the words of an answer. They come from a student's process: anything may stand there.
 
 _MAX_DIGITS = 40
+_FLAGS = ("0", "1")
 _LONGEST = 2_000_000  # characters; the largest tree is half as long
 
 
@@ -388,9 +391,9 @@ class TokenReader:
         """The float32 that was written: its shortest decimal text is another number where floats are 64 bits wide."""
         found = self.word()
         try:
-            return f32(float(found)) if len(found) <= _MAX_DIGITS else _refuse(found)
+            return f32(float(found)) if len(found) <= _MAX_DIGITS else _refuse()
         except (ValueError, OverflowError):
-            return _refuse(found)
+            return _refuse()
 
     def whole(self, low: int = 0, high: int = 1 << 31) -> int:
         return self.wholes(1, low, high)[0]
@@ -421,6 +424,39 @@ class TokenReader:
                 return vector
         return self.real(), self.real(), self.real()  # one of which says what is wrong
 
+    def reals(self, size: int) -> Numbers:
+        """Many at once."""
+        found = self._words[self._next : self._next + size]
+        if len(found) < size:
+            raise ProtocolError("the answer is too short")
+        self._next += size
+        return _reals(found)
+
+    def rows(self, width: int, most: int) -> Numbers:
+        """All that is left, so many numbers in each row; what comes after `most` rows stays."""
+        left = len(self._words) - self._next
+        return self.reals(width * min(-(-left // width), most)).reshape(-1, width)
+
+    def optional_rows(self, width: int, most: int) -> tuple[int, Numbers]:
+        """The same, with a 1 before each row, and a 0 in place of one that is not there; how many are not comes
+        first."""
+        found: list[str] = []
+        missing = 0
+        words, at = self._words, self._next
+        while at < len(words) and missing + len(found) // width < most:
+            if words[at] not in _FLAGS:
+                return _refuse()
+            if words[at] == "0":
+                missing += 1
+                at += 1
+            else:
+                found += words[at + 1 : at + 1 + width]
+                at += 1 + width
+        if at > len(words):
+            raise ProtocolError("the answer is too short")
+        self._next = at
+        return missing, _reals(found).reshape(-1, width)
+
     def at_end(self) -> bool:
         return self._next == len(self._words)
 
@@ -429,5 +465,16 @@ class TokenReader:
             raise ProtocolError("the answer is too long")
 
 
-def _refuse(found: str) -> float:
+def _reals(words: list[str]) -> Numbers:
+    """As `TokenReader.real` reads each of them."""
+    if max(map(len, words), default=0) > _MAX_DIGITS:
+        return _refuse()
+    try:
+        with np.errstate(over="ignore"):
+            return np.array([float(word) for word in words], dtype=np.float32).astype(np.float64)
+    except ValueError:
+        return _refuse()
+
+
+def _refuse() -> NoReturn:
     raise ProtocolError("the answer holds a word where a number belongs")

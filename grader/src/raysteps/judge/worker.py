@@ -197,7 +197,7 @@ class JudgedCase:
 
 def judge_reply(function: Function, case: Case, expected: str, reply: Reply) -> JudgedCase:
     """Compares with the reference's line."""
-    verdict = function.answer.verdict(case.function, case.inputs, expected, reply.line)
+    verdict = case.verdict(function.answer, expected, reply.line)
     if reply.outcome != "ok":
         verdict = replace(verdict, problem=reply.note, actual=f"no answer: {reply.note}", credit=0.0, given=None)
     outcome = reply.outcome if reply.outcome != "ok" or not verdict.problem else "wrong"

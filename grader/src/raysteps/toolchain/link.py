@@ -206,7 +206,9 @@ def precompile(description: Description, include: Path, step: str) -> None:
         folders += ["-isystem", folder]
     for header in (include / "steps" / step).glob("*.hpp"):
         words = [description.compiler, *description.compile_flags, *folders, "-w", "-x", "c++-header", header]
-        _run([*words, "-o", f"{header}.gch"])
+        whole = Path(f"{header}.gch")
+        _run([*words, "-o", whole.with_suffix(".new")])
+        whole.with_suffix(".new").rename(whole)  # whoever includes this one takes no half of it
 
 
 def interpreter_of(readelf: str, program: Path) -> str:

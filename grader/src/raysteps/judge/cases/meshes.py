@@ -368,7 +368,8 @@ def _read_levels(tokens: TokenReader) -> _Levels:
     levels = []
     for _ in range(tokens.whole(0, 64)):
         width, height = tokens.whole(1, 4096), tokens.whole(1, 4096)
-        levels.append(Texture(width, tuple(tokens.vector() for _ in range(width * height))))
+        texels = tokens.reals(3 * width * height).reshape(-1, 3)
+        levels.append(Texture(width, tuple((x, y, z) for x, y, z in texels.tolist())))
     return _Levels(tuple(levels))
 
 

@@ -45,8 +45,7 @@ def _read_draws(tokens: TokenReader) -> _Draws:
     draws: list[Numbers] = []
     while not tokens.at_end() and len(draws) <= _MAX_TIMES:
         size = tokens.whole(0, 1 << 20)
-        numbers = [tokens.real() for _ in range(2 * size)]
-        draws.append(np.array(numbers, dtype=np.float64).reshape(size, 2))
+        draws.append(tokens.reals(2 * size).reshape(size, 2))
     return _Draws(tuple(draws))
 
 
@@ -58,17 +57,23 @@ def _words_of_draws(draws: _Draws) -> str:
 
 
 def _in_squares(points: Numbers, side: int) -> Numbers | None:
-    """Where in its square each point lies, in the order of the squares; none where a square has not just one point."""
+    """Where in its square each point lies, in the order of the squares; none where a square has not just one point.
+    Points: times, points of each, x and y."""
     places = points * side
     near = np.abs(places - np.round(places)) < _BORDER
     squares = np.clip(np.where(near, np.round(places), np.floor(places)), 0, side).astype(np.int64)
-    sure = ~near.any(axis=1)
-    index = squares[:, 1] * side + squares[:, 0]
-    if len(np.unique(index[sure])) != int(sure.sum()):
-        return None
-    if sure.all():
-        return np.asarray(places - squares)[np.argsort(index)]
-    return np.asarray(places % 1.0)[np.lexsort((places[:, 0], np.floor(places[:, 1] + _BORDER / 2)))]
+    sure = np.asarray(~near.any(axis=2))
+    index = squares[..., 1] * side + squares[..., 0]
+    order = np.argsort(index, axis=1)
+    found = np.take_along_axis(places - squares, order[..., None], axis=1)
+    alike = np.diff(np.take_along_axis(index, order, axis=1), axis=1) == 0
+    for time in map(int, np.flatnonzero(~np.all(sure, axis=1))):
+        # One of a few, in which the square of a point is not known for sure.
+        known = np.sort(index[time, sure[time]])
+        alike[time] = (np.diff(known) == 0).any()
+        x, y = places[time].T
+        found[time] = (places[time] % 1.0)[np.lexsort((x, np.floor(y + _BORDER / 2)))]
+    return None if alike.any() else np.asarray(found)
 
 
 def _pairs(shares: Numbers) -> Iterator[tuple[Numbers, Numbers]]:
@@ -118,15 +123,15 @@ def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
         return "no proper answer came"
     if any(len(points) != side * side for points in actual.points):
         return "there are not side * side points"
-    if not all(bool(np.all((points >= 0) & (points <= 1))) for points in actual.points):
+    every = np.array(actual.points)
+    if not ((every >= 0) & (every <= 1)).all():
         return "a point lies outside of the unit square"
-    in_squares = [_in_squares(points, side) for points in actual.points[:-1]]
-    shares = [found for found in in_squares if found is not None]
-    if len(shares) != times:
+    shares = _in_squares(every[:-1], side)
+    if shares is None:
         return "a square has no point, or two"
     if not np.array_equal(actual.points[0], actual.points[-1]):
         return "the same stream gave other points; all numbers must come from it"
-    return _problem_of_squares(np.minimum(np.array(shares), 1.0).reshape(times, side, side, 2))
+    return _problem_of_squares(np.minimum(shares, 1.0).reshape(times, side, side, 2))
 
 
 def _draws(draw: RandomSource, side: int, points: int) -> Inputs:

@@ -57,10 +57,7 @@ class _Draws:
 
 def _reader(width: int) -> Callable[[TokenReader], _Draws]:
     def read(tokens: TokenReader) -> _Draws:
-        rows: list[list[float]] = []
-        while not tokens.at_end() and len(rows) <= _MAX_ROWS:
-            rows.append([tokens.real() for _ in range(width)])
-        found = np.array(rows, dtype=np.float64).reshape(-1, width)
+        found = tokens.rows(width, _MAX_ROWS)
         return _Draws(found[:-1], found[-1:].ravel())
 
     return read
