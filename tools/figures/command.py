@@ -109,6 +109,7 @@ def figures() -> list[Figure]:
     found.append(Figure("12-before", f"{FOLDER}/12-before.png", renders.hard_shadows))
     found.append(Figure("15-paths", f"{FOLDER}/15-paths.png", renders.paths_alone))
     found.append(Figure("sphereflake", "docs/pictures/sphereflake.png", renders.sphereflake))
+    found.append(Figure("still-life", "docs/pictures/still-life.png", renders.still_life))
     found.append(Figure("work-maps", "docs/pictures/work-maps.png", renders.work_maps))
     found.append(Figure("window", "docs/pictures/window.png", renders.window))
     found.append(Figure("steps", "docs/pictures/steps.png", renders.contact_sheet))

@@ -152,9 +152,15 @@ def work_maps(kit: BuiltKit) -> Pixels:
 
 
 def sphereflake(kit: BuiltKit) -> Pixels:
-    """The picture at the top of the README."""
+    """What part one ends with."""
     args = ("--step", "8", "--size", "512x512", "--accel", "bvh", "--samples", "16")
     return reference_picture(kit, generated(kit.project, "sphereflake", 4), args)
+
+
+def still_life(kit: BuiltKit) -> Pixels:
+    """The picture at the top of the README: all of part two."""
+    args = ("--step", "15", "--size", "480x270", "--samples", "144")
+    return reference_picture(kit, kit.project.scenes / "lessons" / "still-life.pbrt", args)
 
 
 # The window: what it really shows, on a screen that nobody sees.
