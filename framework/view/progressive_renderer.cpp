@@ -43,7 +43,7 @@ struct ProgressiveRenderer::Pass {
     int side = 1;
     ViewFrame view{};
     std::optional<FilmSampler> sampler{};  ///< of a pass that adds samples
-    int samples_before = 1;
+    int samples_before = 0;
     std::atomic<std::size_t> next_tile{0};
 };
 
@@ -132,8 +132,11 @@ void ProgressiveRenderer::work() {
 void ProgressiveRenderer::trace(const RenderRequest& request) {
     const Accelerator& accelerator = accelerators_.get(request.acceleration, request.step.step);
     const std::vector<Rect> tiles = tiles_of({0, 0, request.camera.width, request.camera.height});
-    const int samples = is_of_part_two(request.step.step) ? k_samples_of_part_two : 1;
-    wanted_pixels_ = frame_.colors.pixels().size() * static_cast<std::size_t>(samples);
+    const int samples = is_of_part_two(request.step.step) ? k_samples_of_part_two : 0;
+    {
+        const std::scoped_lock lock(mutex_);
+        wanted_pixels_ = frame_.colors.pixels().size() * static_cast<std::size_t>(1 + samples);
+    }
     for (std::size_t i = 0; i < k_pass_sides.size() && !given_up(); ++i) {
         Pass pass{request, accelerator, tiles};
         pass.side = k_pass_sides.at(i);
@@ -141,7 +144,7 @@ void ProgressiveRenderer::trace(const RenderRequest& request) {
         trace_pass(pass, &ProgressiveRenderer::trace_tile);
         can_be_seen_ = true;
     }
-    for (int before = 1; before < samples && !given_up(); ++before) {
+    for (int before = 0; before < samples && !given_up(); ++before) {
         Pass pass{request, accelerator, tiles};
         const SamplingOptions options{.filter = Filter::box, .seed = static_cast<std::uint32_t>(before)};
         pass.sampler.emplace(camera_of_step(request.camera, request.step.step), 1, options);
@@ -166,12 +169,21 @@ void ProgressiveRenderer::say_traced(std::size_t pixels) {
     ++status_.version;
 }
 
-// One more in each pixel, and the mean of all so far.
+// One more in each pixel, and the mean of all so far; the first takes the place of the coarse passes.
 void ProgressiveRenderer::add_samples(Pass& pass, std::size_t tile) {
     const Rect& area = pass.tiles[tile];
     TileRays rays(pass.accelerator, scene_);
     const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, pass.request.step);
-    const std::vector<FilmSampler::Pixel> pixels = pass.sampler->pixels_of(area, *integrator);
+    std::vector<FilmSampler::Pixel> pixels;
+    for (int y = area.y; y < area.y + area.height; ++y) {
+        if (given_up()) {
+            return;
+        }
+        const Rect row{area.x, y, area.width, 1};
+        for (const FilmSampler::Pixel& pixel : pass.sampler->pixels_of(row, *integrator)) {
+            pixels.push_back(pixel);
+        }
+    }
     const std::scoped_lock lock(mutex_);
     std::size_t next = 0;
     for (int y = area.y; y < area.y + area.height; ++y) {

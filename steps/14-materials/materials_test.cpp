@@ -159,6 +159,7 @@ TEST_CASE("visible normals have length 1 and point up", "[14-materials][sample_v
     for (const float alpha : k_alphas) {
         for (const float z : {1.0F, 0.6F, 0.05F}) {
             float flattest = 1.0F;
+            CAPTURE(alpha, z);
             many_times(200, [&](RandomStream& random) {
                 const glm::vec3 normal = sample_visible_normal(leaning(z), alpha, random.next_2d());
                 REQUIRE(glm::length(normal) == about(1.0F));
@@ -204,7 +205,7 @@ TEST_CASE("the density of visible normals adds up to 1", "[14-materials][visible
 TEST_CASE("rough metal: the worked example", "[14-materials][metal_brdf][metal_pdf]") {
     const glm::vec3 view(0.6F, 0.0F, 0.8F);
     const glm::vec3 light(-0.6F, 0.0F, 0.8F);
-    INFO("h is straight up: D = 1 / (pi / 4) = 1.2732, lambda = (sqrt(1 + 0.25 * 0.5625) - 1) / 2 = 0.03401");
+    INFO("h is straight up: D = 1 / (pi / 4) = 1.2732, lambda = (sqrt(1 + 0.25 * 0.5625) - 1) / 2 = 0.0340");
     CHECK_THAT(metal_brdf(view, light, k_white, 0.5F), IsNear(Color(0.46569F)));
     CHECK(metal_pdf(view, light, 0.5F) == about(0.38479F));
 }

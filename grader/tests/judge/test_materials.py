@@ -96,8 +96,17 @@ def _rows(directions: Numbers, weights: Numbers, pdfs: Numbers, specular: float)
     return _line(np.concatenate([ones, directions, weights, pdfs * ones, specular * ones], axis=1))
 
 
-def _metal(weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0, alpha: float = _SMOOTH) -> str:
-    normals = _seen(alpha=alpha, view=_ABOVE)
+def _metal(
+    weight: float = 1.0,
+    pdf: float = 1.0,
+    specular: float = 0.0,
+    alpha: float = _SMOOTH,
+    seed: int = 14,
+    lean: Numbers | None = None,
+) -> str:
+    normals = _seen(seed, alpha, _ABOVE)
+    if lean is not None:  # all to one side
+        normals = np.asarray(np.where(lean < 0, -np.abs(normals), np.where(lean > 0, np.abs(normals), normals)))
     cosines = (normals @ _ABOVE)[:, None]
     directions = 2 * cosines * normals - _ABOVE
     above = directions[:, 2] > 0
@@ -121,6 +130,9 @@ _SCATTER: Inputs = {"hit": _HIT, "roughness": Real(_SMOOTH), "seed": Whole(1), "
         (_metal(pdf=1.02), "the pdf is not that of the direction"),
         (_metal(specular=1.0), "a specular sample"),
         (_metal(alpha=0.5), "nothing comes too often"),
+        (_metal(alpha=0.06), "microfacets"),
+        (_metal(lean=np.array([0, 1, 0])), "evenly to both sides"),
+        (_metal(lean=np.array([-1, 0, 0])), "lean too much"),
         ("0 " * _TIMES, "no proper answer"),
     ],
 )
@@ -128,6 +140,10 @@ def test_each_part_of_a_sample_of_metal_is_looked_at(line: str, said: str) -> No
     found = _said("scatter_metal", _SCATTER, _metal(), line)
     assert said in found
     assert bool(said) == bool(found)
+
+
+def test_right_samples_of_metal_never_fail() -> None:
+    assert not any(_said("scatter_metal", _SCATTER, _metal(), _metal(seed=seed)) for seed in range(20))
 
 
 _GLASS: Inputs = {

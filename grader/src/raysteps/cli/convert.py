@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import sys
 from pathlib import Path
 
 from rich.console import Console
@@ -9,6 +10,7 @@ from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import content_hash
+from raysteps.common.text import count
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 
@@ -46,7 +48,7 @@ def _write(model: Path, out: Path, *, z_up: bool, textures: bool) -> list[str]:
         write_pbrt(parts, out, textures=textures)
     triangles = sum(len(part.triangles) for part in parts)
     notes = [f"{model}: it names {name}, which is not there; it is drawn without" for name in missing]
-    return [*notes, f"{model.name}: {triangles} triangles of {len(parts)} materials"]
+    return [*notes, f"{model.name}: {count(triangles, 'triangle')} of {count(len(parts), 'material')}"]
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
@@ -68,5 +70,6 @@ def as_scene(project: Project, scene: str) -> str:
     ending = ".pbrt" if any(step.number == _MESHES for step in read_steps(project)) else ".nff"
     folder = project.build / "models" / f"{path.stem}-{content_hash(os.fspath(path.resolve()).encode())[:8]}"
     out = folder / f"{path.stem}{ending}"
-    _write(path, out, z_up=False, textures=True)
+    for note in _write(path, out, z_up=False, textures=True)[:-1]:
+        print(f"raysteps: {note}", file=sys.stderr)
     return os.fspath(out)

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from raysteps.cli.convert import as_scene
+from raysteps.cli.convert import ENDINGS, as_scene
 from raysteps.cli.todo_steps import advice, as_far_as_written, last_value, refuse_missing_tree, wanted_step
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.platform import own_command
@@ -187,6 +187,8 @@ def scene_there(project: Project, scene: str) -> str:
     path = Path(scene)
     if not scene or (path.exists() and not path.is_dir()):
         return as_scene(project, scene)
+    if path.suffix.lower() in ENDINGS:
+        raise UsageError(f"{scene}: is {'a folder' if path.is_dir() else 'not there'}; expected a model")
     own = Path(f"{scene}.nff")
     known = {one.stem: one for one in (*sorted(project.scenes.rglob("*.nff")), *([own] if own.is_file() else []))}
     name = nearest(path.stem, known)

@@ -220,7 +220,7 @@ def _read_drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates:
     try:
         return read_ppm(_drawn(kit, scene, args, estimates=estimates))
     except PictureError:  # half a file, as after a full disk
-        _kept(kit, scene, args).unlink()
+        _kept(kit, scene, args).unlink(missing_ok=True)
         return read_ppm(_drawn(kit, scene, args, estimates=estimates))
 
 
@@ -259,7 +259,7 @@ def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estim
     try:
         return read()
     except EstimatesError:  # half a file, as after a full disk
-        _kept(kit, scene, args).with_suffix(ESTIMATES).unlink()
+        _kept(kit, scene, args).with_suffix(ESTIMATES).unlink(missing_ok=True)
         return read()
 
 

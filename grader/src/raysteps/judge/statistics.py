@@ -50,6 +50,48 @@ def is_uniform(shares: Numbers, bins: int) -> bool:
     return chi_square_tail(statistic, cells - 1) >= SIGNIFICANCE
 
 
+def is_like(shares: Numbers, others: Numbers, bins: int) -> bool:
+    """Whether rows of numbers from 0 to 1 are spread over the bins as others are, which are the judge's own draws
+    (chi-square test of two samples). Bins with too few to tell are taken together."""
+
+    def counted(rows: Numbers) -> Numbers:
+        places = np.minimum((rows * bins).astype(np.int64), bins - 1)
+        found = np.bincount(places @ (bins ** np.arange(rows.shape[1])), minlength=bins ** rows.shape[1])
+        return found.astype(np.float64)
+
+    found, right = counted(shares), counted(others)
+    both = found + right
+    few = both * min(len(shares), len(others)) / (len(shares) + len(others)) < _MIN_EXPECTED
+    found, right = (np.append(counts[~few], counts[few].sum()) for counts in (found, right))
+    there = found + right > 0
+    found, right = found[there], right[there]
+    if len(found) < 2:
+        return True
+    more = math.sqrt(len(others) / len(shares))
+    statistic = float(((more * found - right / more) ** 2 / (found + right)).sum())
+    return chi_square_tail(statistic, len(found) - 1) >= SIGNIFICANCE
+
+
+def have_one_mean(numbers: Numbers, others: Numbers) -> bool:
+    """Whether independent numbers have the mean of others, which are the judge's own draws (z-test)."""
+    deviation = math.sqrt(float(others.var()) * (1 / len(numbers) + 1 / len(others)))
+    return abs(float(numbers.mean() - others.mean())) <= DEVIATIONS * deviation
+
+
+def happens_so_often(found: int, tries: int, seen: int, own_tries: int) -> bool:
+    """Whether an event that came `seen` times in the judge's own tries may come so often: exact binomial tails, at the
+    end of the range in which its probability must lie."""
+    share = seen / own_tries
+    unsure = DEVIATIONS * math.sqrt(share * (1 - share) / own_tries) - math.log(SIGNIFICANCE) / own_tries
+    many = found > tries * share
+    probability = min(share + unsure, 1 - 1e-12) if many else max(share - unsure, 1e-300)
+    counts = np.arange(found, tries + 1) if many else np.arange(found + 1)
+    logs = np.append(0.0, np.cumsum(np.log(np.arange(1, tries + 1))))
+    chances = logs[tries] - logs[counts] - logs[tries - counts]
+    chances += counts * math.log(probability) + (tries - counts) * math.log1p(-probability)
+    return float(np.exp(chances).sum()) >= SIGNIFICANCE
+
+
 def are_independent(first: Numbers, second: Numbers, bins: int) -> bool:
     """Of two rows of even numbers from 0 to 1: sum and difference, going round, are even where they have nothing to do
     with each other. One of them is not where one number is made of the other, turned round or not."""

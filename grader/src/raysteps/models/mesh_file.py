@@ -24,6 +24,7 @@ Floats = NDArray[np.float64]
 _GREY = np.full(3, 0.7)
 _FARTHEST = 1e9  # as the readers of scenes have it
 _LONGEST_SIDE = 8192  # of a texture, likewise
+_LARGEST_FILE = 1 << 30
 _MAX_CORNERS = 1 << 24  # a scene counts them in single precision
 
 
@@ -189,12 +190,14 @@ class _Beside(FilePathResolver):
         self.missing: list[str] = []
 
     def get(self, name: str) -> bytes:
+        path = self.absolute(name.replace("\\", "/"))
         try:
-            found: bytes = super().get(name.replace("\\", "/"))
+            if not path.is_file() or path.stat().st_size > _LARGEST_FILE:  # no pipe, which may never end
+                raise FileNotFoundError(name)
+            return path.read_bytes()
         except OSError:
             self.missing.append(name)
             raise
-        return found
 
 
 class _Said(logging.Handler):

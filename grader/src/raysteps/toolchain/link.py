@@ -208,7 +208,7 @@ def precompile(description: Description, include: Path, step: str) -> None:
         words = [description.compiler, *description.compile_flags, *folders, "-w", "-x", "c++-header", header]
         whole = Path(f"{header}.gch")
         _run([*words, "-o", whole.with_suffix(".new")])
-        whole.with_suffix(".new").rename(whole)  # whoever includes this one takes no half of it
+        whole.with_suffix(".new").replace(whole)  # whoever includes this one takes no half of it
 
 
 def interpreter_of(readelf: str, program: Path) -> str:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -34,7 +35,15 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform
+from raysteps.judge.statistics import (
+    DEVIATIONS,
+    Numbers,
+    happens_so_often,
+    has_mean,
+    have_one_mean,
+    is_like,
+    is_uniform,
+)
 
 _UP: Vector = (0.0, 0.0, 1.0)
 Mask = npt.NDArray[np.bool_]
@@ -429,17 +438,14 @@ def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     density = alpha**2 / (math.pi * ((alpha**2 - 1) * half[:, 2] ** 2 + 1) ** 2) / (4 * seen * view[:, 2])
     wrong_pdf = bool((np.abs(actual.pdfs - density)[steep] > 1e-4 + 5e-3 * density[steep]).any())
     return (
-        first(
-            _lost_problem(actual.nothing, actual.count, _lost_share(view[0], alpha)),
-            _rough_distribution(half, view, alpha, actual.nothing),
-        ),
+        _rough_problem(half, actual.nothing, view, alpha),
         "the weight is not f cos / pdf" if _weights_differ(actual.weights, right, steep) else "",
         "the pdf is not that of the direction" if wrong_pdf else "",
         "rough metal gives a specular sample" if actual.is_specular_somewhere else "",
     )
 
 
-_TRIES = 20_000  # of the judge's own, to know how often nothing comes
+_TRIES = 20_000  # of the judge's own: what is lost, and what is left
 
 
 def _visible_normals(view: Numbers, alpha: float) -> Numbers:
@@ -459,32 +465,43 @@ def _visible_normals(view: Numbers, alpha: float) -> Numbers:
     return _units(tips * stretch)
 
 
-def _lost_share(view: Numbers, alpha: float, eta: float | None = None) -> float:
-    """How often a direction is lost, which would lead through the surface; `eta`: of glass."""
+@lru_cache(maxsize=64)  # the cases of one submission after the other
+def _kept_shares(viewed: Vector, alpha: float, eta: float | None) -> Numbers:
+    """Of those of them whose direction does not lead through the surface; `eta`: of glass."""
+    view = np.array(viewed)
     normals = _visible_normals(view, alpha)
     cosines = np.clip(normals @ view, 0.0, 1.0)
-    below = 2 * cosines * normals[:, 2] - view[2] <= 0
+    above = 2 * cosines * normals[:, 2] - view[2] > 0
     if eta is None:
-        return float(below.mean())
-    mirrored = _dielectric(cosines, eta)
+        return _shares_from(view, normals[above], alpha)
     other = np.sqrt(np.maximum(0.0, 1 - eta * eta * (1 - cosines**2)))
-    above = (eta * cosines - other) * normals[:, 2] - eta * view[2] >= 0
-    return float((mirrored * below + (1 - mirrored) * above).mean())
+    below = (eta * cosines - other) * normals[:, 2] - eta * view[2] < 0
+    is_mirrored = np.random.default_rng(15).random(_TRIES) < _dielectric(cosines, eta)
+    return _shares_from(view, normals[np.where(is_mirrored, above, below)], alpha)
 
 
-def _lost_problem(nothing: int, count: int, share: float) -> str:
-    deviation = math.sqrt(share * (1 - share) * count * (1 + count / _TRIES))
-    if abs(nothing - share * count) <= DEVIATIONS * deviation + 2:
-        return ""
-    return f"nothing comes too {'often' if nothing > share * count else 'seldom'}"
+def _shares_from(view: Numbers, normals: Numbers, alpha: float) -> Numbers:
+    return _seen_shares(normals, np.broadcast_to(view, normals.shape), alpha)
 
 
-def _rough_distribution(normals: Numbers, view: Numbers, alpha: float, nothing: int) -> str:
-    """All normals are known where no direction was lost. Where some were, those that are left are no longer even."""
-    if nothing:
-        return ""
-    view_of_all = (float(view[0, 0]), float(view[0, 1]), float(view[0, 2]))
-    return _visible_problem(normals, view_of_all, alpha)
+def _rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, eta: float | None = None) -> str:
+    """Whether nothing comes as often as it should, and the other normals are those of the judge's own draws of which a
+    direction was kept."""
+    x, y, z = (float(value) for value in view[0])
+    own = _kept_shares((x, y, z), alpha, eta)
+    count = len(normals) + nothing
+    lost = _TRIES - len(own)
+    if not happens_so_often(nothing, count, lost, _TRIES):
+        return f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
+    mine = _shares_from(view[0], normals, alpha)
+    if not have_one_mean(mine[:, 0], own[:, 0]):
+        return "microfacets do not lean evenly to both sides of the view"
+    if not have_one_mean(mine[:, 1], own[:, 1]):
+        less = mine[:, 1].mean() < own[:, 1].mean()
+        return f"microfacets lean too much {'towards' if less else 'away from'} the view"
+    bins = _MANY if count >= _MANY_NORMALS else _FEW
+    even = all(is_like(mine[:, [i]], own[:, [i]], 4 * bins) for i in range(2)) and is_like(mine, own, bins)
+    return "" if even else "microfacets do not come as often as they are seen"
 
 
 def _rough(draw: RandomSource, low: float, high: float, rough: tuple[float, float], amount: int = 1024) -> Inputs:
@@ -570,12 +587,13 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     return (
         _share_problem(is_mirrored, _dielectric(cosines, eta), samples.nothing),
         "the weight is wrong" if _weights_differ(samples.weights, right, steep) else "",
-        first(
-            _lost_problem(samples.nothing, samples.count, _lost_share(view[0], alpha, eta) if alpha else 0.0),
-            _rough_distribution(normals, view, alpha, samples.nothing) if alpha else "",
-        ),
+        _rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
         "" if samples.are_specular else "a sample of glass is not specular",
     )
+
+
+def _of_smooth(nothing: int) -> str:
+    return "nothing comes too often" if nothing else ""
 
 
 def _astray(is_mirrored: Mask, normals: Numbers) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from raysteps.common.vectors import Vector, add, cross, minus, unit
-from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, read_vector, real, words_of_number
+from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, number_answer, read_vector
 from raysteps.judge.cases.path_tracing import length_problem, often, once, path_answer
 from raysteps.judge.estimates import Estimates, estimates_problem
 from raysteps.judge.functions import Function, Group
@@ -25,17 +25,9 @@ from raysteps.judge.surfaces import Triangle
 _BLACK: Vector = (0.0, 0.0, 0.0)
 
 
-def _number(what: str, tolerance: Tolerance) -> Answer[float]:
-    return Answer(
-        lambda tokens: tokens.real(),
-        words_of_number,
-        lambda _, expected, actual: real(what, expected, actual, tolerance),
-    )
-
-
 # Weights.
 
-_WEIGHT = _number("the weight", Tolerance(2e-6, 5e-5))
+_WEIGHT = number_answer("the weight", Tolerance(2e-6, 5e-5))
 
 
 def _two(pdf: float, other: float) -> Inputs:
@@ -78,7 +70,7 @@ _POWER_HEURISTIC = Function(
 
 # Densities of lamps, of a place that a ray has met.
 
-_DENSITY = _number("the density", Tolerance(1e-6, 2e-3))
+_DENSITY = number_answer("the density", Tolerance(1e-6, 2e-3))
 
 
 def _before(draw: RandomSource, position: Vector, normal: Vector, distance: float, cosines: Sequence[float]) -> Vector:
