@@ -229,3 +229,17 @@ TEST_CASE("a path is told hit by hit", "[inspect]") {
     CHECK(text.find("x ks") == std::string::npos);
     CHECK(text.find("not kept") == std::string::npos);
 }
+
+TEST_CASE("a path that goes through glass is told as refracted", "[inspect]") {
+    Scene scene;
+    scene.camera = {.from = {0, 0, 5}, .at = {0, 0, 0}, .up = {0, 1, 0}, .width = 3, .height = 3};
+    Fill glass{.index_of_refraction = 1.5F, .scattering = Scattering::glass};
+    scene.add(std::make_unique<Sphere>(glm::vec3(0), 1.0F, glass));
+    const PixelRecord record = inspected(scene, Acceleration::none, options_of(14), 1, 1);
+    REQUIRE(record.eye.path.has_value());
+    REQUIRE(record.eye.path->scatter.has_value());
+    const bool goes_through = record.eye.path->scatter->direction.z < 0.0F;
+    REQUIRE(record.eye.bounces.size() == 1);
+    CHECK(record.eye.bounces.front().role == (goes_through ? RayRole::refract : RayRole::reflect));
+    CHECK(record.stats.refract + record.stats.reflect > 0);
+}

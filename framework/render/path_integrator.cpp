@@ -58,6 +58,8 @@ public:
     [[nodiscard]] std::optional<ScatterSample> scatter(const HitRecord& hit) override {
         std::optional<ScatterSample> sample = scatter_by_material(hit);
         rays().scattered(next_.from, sample);
+        const bool goes_through = sample && glm::dot(sample->direction, hit.normal) < 0.0F;
+        next_.kind = goes_through ? RayKind::refracted : RayKind::reflected;
         return sample;
     }
 
