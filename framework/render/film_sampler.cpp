@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <span>
 
 #include "core/random_stream.hpp"
@@ -128,7 +129,7 @@ bool FilmSampler::is_good_enough(const std::vector<FilmSample>& samples) const {
         return true;
     }
     const PixelEstimate estimate = estimate_of(samples);
-    const auto brightness = [](const Color& color) { return (color.r + color.g + color.b) / 3.0F; };
+    const auto brightness = [](const Color& color) { return glm::dot(color, Color(1.0F / 3.0F)); };
     const float error = std::sqrt(brightness(estimate.variance)) / std::max(brightness(estimate.mean), k_dark);
     return samples.size() >= k_least && error <= options_.max_error;
 }

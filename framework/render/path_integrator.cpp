@@ -39,7 +39,8 @@ public:
             if (light == k_black) {
                 return;
             }
-            if (!(sample.pdf > 0.0F)) {
+            const bool has_density = sample.pdf > 0.0F;
+            if (!has_density) {
                 samples.push_back({.light = light, .pdf = 1.0F});
                 return;
             }
