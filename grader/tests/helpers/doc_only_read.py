@@ -8,6 +8,7 @@ _IMAGE = "takes minutes, and needs an engine and a network; test_image has one t
 _PLAY = "makes the page, which takes minutes, and ends when somebody ends it; test_play_page does"
 _NIGHTLY = "goes on until Ctrl-C; test_nightly looks as often as it likes"
 _FINALE = "draws for a minute; test_finale makes a small one"
+_MODEL = "needs a model that somebody has; test_models makes such"
 _DOWNLOAD = "needs the names of a platform's download; test_feedback_zips has such"
 
 COMMANDS = {
@@ -31,6 +32,8 @@ COMMANDS = {
     "./raysteps grade-class --merge grades-ada grades-bob --out grades": (
         "needs copies that two people worked on; test_annotations merges such"
     ),
+    "./raysteps render MODEL.obj -o model.png": _MODEL,
+    "./raysteps convert MODEL.obj -o model.pbrt": _MODEL,
     "./raysteps play": _PLAY,
     "./raysteps play --port 8000 --no-open": _PLAY,
     "./raysteps play --registry https://npm.example.edu": _PLAY,
