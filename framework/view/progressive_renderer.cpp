@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/threads.hpp"
-#include "render/film_sampler.hpp"
 #include "render/tile_rays.hpp"
 #include "render/tiles.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
@@ -34,18 +33,6 @@ void fill_block(Frame& frame, const TracedPixel& pixel, int side) {
 }
 
 }  // namespace
-
-/// What the threads of one pass share.
-struct ProgressiveRenderer::Pass {
-    const RenderRequest& request;
-    const Accelerator& accelerator;
-    std::vector<Rect> tiles;
-    int side = 1;
-    ViewFrame view{};
-    std::optional<FilmSampler> sampler{};  ///< of a pass that adds samples
-    int samples_before = 0;
-    std::atomic<std::size_t> next_tile{0};
-};
 
 ProgressiveRenderer::ProgressiveRenderer(const Scene& scene, AcceleratorCache& accelerators, int threads)
     : scene_(scene), accelerators_(accelerators), threads_(threads), started_(Clock::now()) {
@@ -132,33 +119,37 @@ void ProgressiveRenderer::work() {
 void ProgressiveRenderer::trace(const RenderRequest& request) {
     const Accelerator& accelerator = accelerators_.get(request.acceleration, request.step.step);
     const std::vector<Rect> tiles = tiles_of({0, 0, request.camera.width, request.camera.height});
+    const auto for_each_tile = [&](const auto& trace_one) {
+        share_among_threads(threads_, tiles.size(), 1, [&](std::size_t tile) {
+            if (given_up()) {
+                return;
+            }
+            TileRays rays(accelerator, scene_);
+            const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, request.step);
+            trace_one(tiles[tile], *integrator);
+        });
+    };
     const int samples = is_of_part_two(request.step.step) ? k_samples_of_part_two : 0;
     {
         const std::scoped_lock lock(mutex_);
         wanted_pixels_ = frame_.colors.pixels().size() * static_cast<std::size_t>(1 + samples);
     }
-    for (std::size_t i = 0; i < k_pass_sides.size() && !given_up(); ++i) {
-        Pass pass{request, accelerator, tiles};
-        pass.side = k_pass_sides.at(i);
-        pass.view = view_frame(request.camera);
-        trace_pass(pass, &ProgressiveRenderer::trace_tile);
+    const ViewFrame view = view_frame(request.camera);
+    for (const int side : k_pass_sides) {
+        if (given_up()) {
+            return;
+        }
+        for_each_tile([&](const Rect& area, Integrator& integrator) {
+            trace_blocks(request.camera, view, side, area, integrator);
+        });
         can_be_seen_ = true;
     }
+    const Camera camera = camera_of_step(request.camera, request.step.step);
     for (int before = 0; before < samples && !given_up(); ++before) {
-        Pass pass{request, accelerator, tiles};
-        const SamplingOptions options{.filter = Filter::box, .seed = static_cast<std::uint32_t>(before)};
-        pass.sampler.emplace(camera_of_step(request.camera, request.step.step), 1, options);
-        pass.samples_before = before;
-        trace_pass(pass, &ProgressiveRenderer::add_samples);
+        const FilmSampler sampler(camera, 1, {.filter = Filter::box, .seed = static_cast<std::uint32_t>(before)});
+        for_each_tile(
+            [&](const Rect& area, Integrator& integrator) { add_samples(sampler, before, area, integrator); });
     }
-}
-
-void ProgressiveRenderer::trace_pass(Pass& pass, void (ProgressiveRenderer::*work_on)(Pass&, std::size_t)) {
-    run_on_threads(threads_, [&] {
-        for (std::size_t tile = pass.next_tile++; tile < pass.tiles.size() && !given_up(); tile = pass.next_tile++) {
-            (this->*work_on)(pass, tile);
-        }
-    });
 }
 
 void ProgressiveRenderer::say_traced(std::size_t pixels) {
@@ -170,17 +161,15 @@ void ProgressiveRenderer::say_traced(std::size_t pixels) {
 }
 
 // One more in each pixel, and the mean of all so far; the first takes the place of the coarse passes.
-void ProgressiveRenderer::add_samples(Pass& pass, std::size_t tile) {
-    const Rect& area = pass.tiles[tile];
-    TileRays rays(pass.accelerator, scene_);
-    const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, pass.request.step);
+void ProgressiveRenderer::add_samples(const FilmSampler& sampler, int before, const Rect& area,
+                                      Integrator& integrator) {
     std::vector<FilmSampler::Pixel> pixels;
     for (int y = area.y; y < area.y + area.height; ++y) {
         if (given_up()) {
             return;
         }
         const Rect row{area.x, y, area.width, 1};
-        for (const FilmSampler::Pixel& pixel : pass.sampler->pixels_of(row, *integrator)) {
+        for (const FilmSampler::Pixel& pixel : sampler.pixels_of(row, integrator)) {
             pixels.push_back(pixel);
         }
     }
@@ -189,34 +178,32 @@ void ProgressiveRenderer::add_samples(Pass& pass, std::size_t tile) {
     for (int y = area.y; y < area.y + area.height; ++y) {
         for (int x = area.x; x < area.x + area.width; ++x) {
             Color& mean = frame_.colors.at(x, y);
-            mean += (pixels[next++].color - mean) / static_cast<float>(pass.samples_before + 1);
+            mean += (pixels[next++].color - mean) / static_cast<float>(before + 1);
         }
     }
     say_traced(pixels.size());
 }
 
-void ProgressiveRenderer::trace_tile(Pass& pass, std::size_t tile) {
-    const Rect& area = pass.tiles[tile];
-    TileRays rays(pass.accelerator, scene_);
-    const std::unique_ptr<Integrator> integrator = make_integrator(scene_, rays, pass.request.step);
+void ProgressiveRenderer::trace_blocks(const Camera& camera, const ViewFrame& view, int side, const Rect& area,
+                                       Integrator& integrator) {
     std::vector<TracedPixel> traced;
     for (int y = area.y; y < area.y + area.height; ++y) {
         for (int x = area.x; x < area.x + area.width; ++x) {
-            if (!is_in_pass(x, y, pass.side)) {
+            if (!is_in_pass(x, y, side)) {
                 continue;
             }
             if (given_up()) {
                 return;
             }
             TracedPixel pixel{x, y, k_black, {}};
-            pixel.color = measured_color(*integrator, primary_ray(pass.request.camera, pass.view, x, y),
-                                         {.pixel = pixel_number(x, y)}, pixel.cost);
+            pixel.color =
+                measured_color(integrator, primary_ray(camera, view, x, y), {.pixel = pixel_number(x, y)}, pixel.cost);
             traced.push_back(pixel);
         }
     }
     const std::scoped_lock lock(mutex_);
     for (const TracedPixel& pixel : traced) {
-        fill_block(frame_, pixel, pass.side);
+        fill_block(frame_, pixel, side);
     }
     say_traced(traced.size());
 }

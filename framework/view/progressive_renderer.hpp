@@ -12,6 +12,7 @@
 
 #include "core/image.hpp"
 #include "core/scene.hpp"
+#include "render/film_sampler.hpp"
 #include "render/pixel_cost.hpp"
 #include "view/accelerator_cache.hpp"
 
@@ -73,13 +74,11 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    struct Pass;
 
     void work();
     void trace(const RenderRequest& request);
-    void trace_pass(Pass& pass, void (ProgressiveRenderer::*work_on)(Pass&, std::size_t));
-    void trace_tile(Pass& pass, std::size_t tile);
-    void add_samples(Pass& pass, std::size_t tile);
+    void trace_blocks(const Camera& camera, const ViewFrame& view, int side, const Rect& area, Integrator& integrator);
+    void add_samples(const FilmSampler& sampler, int before, const Rect& area, Integrator& integrator);
     void say_traced(std::size_t pixels);
     [[nodiscard]] bool given_up() const;
 

@@ -1,8 +1,10 @@
 #pragma once
-// Asking a function of a random point many times.
+// Asking a function of a random point many times, and what it gives then.
 #include <cstdint>
+#include <optional>
 
 #include "core/random_stream.hpp"
+#include "core/scatter.hpp"
 #include "worker/protocol.hpp"
 
 namespace raysteps {
@@ -14,6 +16,15 @@ void draw_often(TokenReader& words, const Draw& draw) {
     RandomStream random(seed);
     for (int left = words.count(); left > 0; --left) {
         draw(random.next_2d());
+    }
+}
+
+/// 1 and the sample, or 0 where there is none.
+inline void write_sample(TokenWriter& answer, const std::optional<ScatterSample>& sample) {
+    answer.whole(sample ? 1 : 0);
+    if (sample) {
+        answer.vector(sample->direction).vector(sample->weight).number(sample->pdf);
+        answer.whole(sample->specular ? 1 : 0);
     }
 }
 

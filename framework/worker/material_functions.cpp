@@ -7,14 +7,6 @@
 namespace raysteps {
 namespace {
 
-void write_sample(TokenWriter& answer, const std::optional<ScatterSample>& sample) {
-    answer.whole(sample ? 1 : 0);
-    if (sample) {
-        answer.vector(sample->direction).vector(sample->weight).number(sample->pdf);
-        answer.whole(sample->specular ? 1 : 0);
-    }
-}
-
 /// A hit, and how rough it is.
 HitRecord read_rough_hit(TokenReader& words) {
     HitRecord hit = read_hit(words);

@@ -20,14 +20,7 @@ void ask_cosine_pdf(TokenReader& words, TokenWriter& answer) {
 
 void ask_scatter_diffuse(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_hit(words);
-    draw_often(words, [&](const glm::vec2& u) {
-        const std::optional<ScatterSample> sample = scatter_diffuse(hit, u);
-        answer.whole(sample ? 1 : 0);
-        if (sample) {
-            answer.vector(sample->direction).vector(sample->weight).number(sample->pdf);
-            answer.whole(sample->specular ? 1 : 0);
-        }
-    });
+    draw_often(words, [&](const glm::vec2& u) { write_sample(answer, scatter_diffuse(hit, u)); });
 }
 
 void ask_survival_probability(TokenReader& words, TokenWriter& answer) {

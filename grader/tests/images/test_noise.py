@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from estimate_files import bytes_of
 
 from raysteps.images.noise import (
     PART,
@@ -14,7 +15,6 @@ from raysteps.images.noise import (
     as_lists,
     as_picture,
     bias_map,
-    bytes_of,
     compare_estimates,
     from_lists,
     noise_ratio,

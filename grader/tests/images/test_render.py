@@ -5,11 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from estimate_files import bytes_of
 
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_ppm
-from raysteps.images.noise import Estimates, bytes_of, read_estimates
+from raysteps.images.noise import Estimates, read_estimates
 from raysteps.images.render import (
     Gate,
     Rendered,

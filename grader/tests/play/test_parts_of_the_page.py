@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from browser import Watched
 from catch2_words import COMPARISONS
+from estimate_files import bytes_of
 from rich.console import Console
 
 from raysteps.cli import play
@@ -22,7 +23,7 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import twice_message, undefined_message
 from raysteps.images.compare import compare, parse_ppm
-from raysteps.images.noise import Estimates, bytes_of, compare_estimates
+from raysteps.images.noise import Estimates, compare_estimates
 from raysteps.play.play_page import PlayServer, first_includes, handout, publish, refuse_to_publish, with_places
 from raysteps.toolchain.catch2 import parse_report
 

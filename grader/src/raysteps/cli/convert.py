@@ -13,9 +13,9 @@ from raysteps.common.files import content_hash
 from raysteps.common.text import count
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
+from raysteps.models import ENDINGS
 
 _MESHES = "11"  # the step from which on scenes have meshes and textures
-ENDINGS = (".obj", ".gltf", ".glb", ".ply", ".stl", ".off")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,10 +38,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _write(model: Path, out: Path, *, z_up: bool, textures: bool) -> list[str]:
-    from raysteps.models import mesh_file as reader  # trimesh takes its time
+    from raysteps.models.mesh_file import read_model  # trimesh takes its time
     from raysteps.models.scene_around import write_nff, write_pbrt
 
-    parts, missing = reader.read_model(model, z_up=z_up)
+    parts, missing = read_model(model, z_up=z_up)
     if out.suffix.lower() == ".nff":
         write_nff(parts, out)
     else:

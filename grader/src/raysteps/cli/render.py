@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from raysteps.cli.convert import ENDINGS, as_scene
+from raysteps.cli.convert import as_scene
 from raysteps.cli.todo_steps import advice, as_far_as_written, last_value, refuse_missing_tree, wanted_step
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
 from raysteps.common.platform import own_command
@@ -25,6 +25,7 @@ from raysteps.grading.build_messages import (
     missing_name,
     undefined_message,
 )
+from raysteps.models import ENDINGS
 from raysteps.report.terminal import short_path
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.build_kit import build_kit

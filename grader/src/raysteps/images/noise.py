@@ -67,13 +67,6 @@ def read_estimates(data: bytes) -> Estimates:
     return Estimates(values[:, :, 0], values[:, :, 1])
 
 
-def bytes_of(estimates: Estimates) -> bytes:
-    """The same format."""
-    width, height = estimates.size
-    values = np.stack([estimates.mean, estimates.variance], axis=2).astype("<f4")
-    return b"raysteps-estimates %d %d\n" % (width, height) + values.tobytes()
-
-
 def as_lists(estimates: Estimates) -> dict[str, Any]:
     """For JSON, to as many digits as a float has."""
 

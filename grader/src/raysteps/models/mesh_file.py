@@ -16,8 +16,9 @@ from trimesh.visual.material import PBRMaterial, SimpleMaterial
 from trimesh.visual.texture import TextureVisuals
 
 from raysteps.common.errors import UsageError, reason
+from raysteps.images.noise import as_picture
+from raysteps.models import ENDINGS
 
-ENDINGS = (".obj", ".gltf", ".glb", ".ply", ".stl", ".off")
 EXPECTED = "expected a model: .obj, .gltf, .glb, .ply, .stl or .off"
 Floats = NDArray[np.float64]
 
@@ -57,12 +58,6 @@ def straightened(bent: Floats) -> Floats:
     return np.where(bent <= 0.04045, bent / 12.92, ((bent + 0.055) / 1.055) ** 2.4)
 
 
-def bent(linear: Floats) -> Floats:
-    """From linear to sRGB, both from 0 to 1 (IEC 61966-2-1)."""
-    low = np.maximum(linear, 0.0)
-    return np.where(low <= 0.0031308, 12.92 * low, 1.055 * low ** (1 / 2.4) - 0.055)
-
-
 def _parts_of(image: Image.Image) -> Floats:
     """(height, width, 3), from 0 to 1, as the file has it."""
     return np.asarray(image.convert("RGB"), dtype=np.float64) / 255
@@ -83,7 +78,7 @@ def _rgb(value: Any) -> Floats:
 def _tinted(image: Image.Image, factor: Floats) -> Image.Image:
     if (factor == 1).all():
         return image.convert("RGB")
-    return Image.fromarray(np.rint(255 * bent(factor * straightened(_parts_of(image)))).astype(np.uint8))
+    return Image.fromarray(as_picture(factor * straightened(_parts_of(image))))
 
 
 def _of_obj(material: SimpleMaterial) -> Material:

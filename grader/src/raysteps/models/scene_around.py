@@ -43,9 +43,8 @@ def _sized(parts: Sequence[Part]) -> list[Part]:
     return [replace(part, positions=part.positions * 10.0 ** -np.floor(np.log10(size))) for part in parts]
 
 
-def _view(parts: Sequence[Part]) -> tuple[Floats, Floats]:
+def _view(corners: Floats) -> tuple[Floats, Floats]:
     """From where to where: as near as all corners are seen."""
-    corners = _used(parts)
     center = (corners.min(axis=0) + corners.max(axis=0)) / 2
     right = np.cross([0, 1, 0], _FROM)
     right /= np.linalg.norm(right)
@@ -55,9 +54,8 @@ def _view(parts: Sequence[Part]) -> tuple[Floats, Floats]:
     return center + _MARGIN * far * _FROM, center
 
 
-def _floor(parts: Sequence[Part]) -> Part:
+def _floor(corners: Floats) -> Part:
     """A square below everything, ten times as wide; a little lower, so that it does not lie in another one."""
-    corners = _used(parts)
     low, high = corners.min(axis=0), corners.max(axis=0)
     size = float(np.linalg.norm(high - low))
     x, z = (low + high)[[0, 2]] / 2
@@ -66,10 +64,10 @@ def _floor(parts: Sequence[Part]) -> Part:
     return Part("floor", positions, None, None, np.array([[0, 1, 2], [0, 2, 3]]), _FLOOR)
 
 
-def _all_of(parts: Sequence[Part]) -> tuple[list[Part], bool]:
+def _all_of(parts: Sequence[Part], corners: Floats) -> tuple[list[Part], bool]:
     """What is drawn, and whether the model brings its own light; then it is left alone with it."""
     lit = any(part.material.emission.any() for part in parts)
-    return [*parts, *([] if lit else [_floor(parts)])], lit
+    return [*parts, *([] if lit else [_floor(corners)])], lit
 
 
 def _plain_color(part: Part) -> Floats:
@@ -114,8 +112,9 @@ def _pbrt_part(part: Part, texture: str | None) -> Iterator[str]:
 
 
 def _pbrt_lines(parts: Sequence[Part], textures: dict[int, str]) -> Iterator[str]:
-    eye, center = _view(parts)
-    drawn, lit = _all_of(parts)
+    corners = _used(parts)
+    eye, center = _view(corners)
+    drawn, lit = _all_of(parts, corners)
     yield "Scale -1 1 1"
     yield f"LookAt {_row(eye)}  {_row(center)}  0 1 0"
     yield f'Camera "perspective" "float fov" {_ANGLE:g}'
@@ -148,14 +147,15 @@ def write_pbrt(parts: Sequence[Part], path: Path, *, textures: bool) -> None:
 
 
 def _nff_lines(parts: Sequence[Part]) -> Iterator[str]:
-    eye, center = _view(parts)
+    corners = _used(parts)
+    eye, center = _view(corners)
     yield f"b {_row(_IN_PART_ONE * _SKY)}"
     yield f"v\nfrom {_row(eye)}\nat {_row(center)}\nup 0 1 0\nangle {_ANGLE:g}\nhither 0"
     yield f"resolution {_WIDTH} {_HEIGHT}"
     far = np.linalg.norm(eye - center)
     for place, color in _LIGHTS:
         yield f"l {_row(center + 100 * far * place)} {_row(_IN_PART_ONE * color)}"
-    for part in (*parts, _floor(parts)):
+    for part in (*parts, _floor(corners)):
         material = part.material
         yield f"# {' '.join(part.name.split())}"
         mirrors = 0.5 if material.metal_roughness is not None else min(material.ks, 1.0)

@@ -463,26 +463,9 @@ def _furnace(draw: RandomSource, low: float, high: float) -> PathScript:
 _LATE = 32  # bounces: who cuts paths off finds nothing
 
 
-def _late(draw: RandomSource) -> PathScript:
-    """All light is found behind many bounces: roulette has taken most of the paths, and those left count more."""
-    dark = [
-        PathHit(
-            i + 1 + draw.real(0.1, 0.8),
-            draw.direction(),
-            _BLACK,
-            _BLACK,
-            Scatter(draw.direction(), _gray(draw, 0.97, 0.99)),
-        )
-        for i in range(_LATE)
-    ]
-    last = PathHit(_LATE + 2.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
-    return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
-
-
-def _dark_wall(draw: RandomSource) -> PathScript:
-    """The wall behind which roulette begins takes most of the light: so few paths go on from just there."""
-    weights = (*((0.95, 0.98) for _ in range(_SURE)), (0.1, 0.15), (0.3, 0.5))
-    walls = [
+def _walls(draw: RandomSource, shares: Sequence[tuple[float, float]]) -> tuple[PathHit, ...]:
+    """Grey ones without any light, which send on so much of what they get."""
+    return tuple(
         PathHit(
             i + 1 + draw.real(0.1, 0.8),
             draw.direction(),
@@ -490,9 +473,21 @@ def _dark_wall(draw: RandomSource) -> PathScript:
             _BLACK,
             Scatter(draw.direction(), _gray(draw, *share)),
         )
-        for i, share in enumerate(weights)
-    ]
-    return PathScript(draw.color(0.5, 1.0), goes_on=False, hits=tuple(walls))
+        for i, share in enumerate(shares)
+    )
+
+
+def _late(draw: RandomSource) -> PathScript:
+    """All light is found behind many bounces: roulette has taken most of the paths, and those left count more."""
+    dark = _walls(draw, [(0.97, 0.99)] * _LATE)
+    last = PathHit(_LATE + 2.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
+    return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
+
+
+def _dark_wall(draw: RandomSource) -> PathScript:
+    """The wall behind which roulette begins takes most of the light: so few paths go on from just there."""
+    walls = _walls(draw, [*[(0.95, 0.98)] * _SURE, (0.1, 0.15), (0.3, 0.5)])
+    return PathScript(draw.color(0.5, 1.0), goes_on=False, hits=walls)
 
 
 def _colored_walls(draw: RandomSource) -> PathScript:
