@@ -59,7 +59,8 @@ def _tidy(project: Project, *words: str) -> Report:
         tree.configure()
     sources = rf"^{re.escape(project.root.as_posix())}/(bench|framework|solutions)/(?!testing/|io/fuzz/|.*_test\.)"
     runner: list[str | Path] = [sys.executable, _tool("run-clang-tidy.py"), "-clang-tidy-binary", _tool("clang-tidy")]
-    return command([*runner, "-quiet", "-p", _each_once(tree.folder), *words, sources], project.root, _TIDY_SECONDS)
+    runner += ["-quiet", "-p", _each_once(tree.folder), *words, sources]
+    return command(runner, project.root, _TIDY_SECONDS, progress=r"\[ *\d+/\d+\]")
 
 
 def _is_python(place: str) -> bool:

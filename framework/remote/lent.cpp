@@ -215,6 +215,28 @@ std::vector<PlaceInGroup> places_of(const SurfaceList& surfaces) {
     return places;
 }
 
+std::unique_ptr<QueryLoan> write_paths(Writer& out, PathTracer& tracer, MisTracer* mis_tracer) {
+    const std::optional<LentId> known = id_of_other_end(tracer);
+    auto loan = known ? nullptr : std::make_unique<QueryLoan>(tracer, nullptr, &tracer, mis_tracer);
+    out.put(known.has_value());
+    out.put(known ? *known : loan->id());
+    write(out, tracer.background());
+    return loan;
+}
+
+template <typename Received>
+Received read_paths(Reader& in, auto& (*lent_one)(LentId)) {
+    const bool own = in.get<bool>();
+    const auto id = in.get<LentId>();
+    const auto background = read<Color>(in);
+    if (own) {
+        return {nullptr, &lent_one(id), Use(lent(id).uses)};
+    }
+    auto stand_in = std::make_unique<FarPathTracer>(id, background);
+    FarPathTracer* tracer = stand_in.get();
+    return {std::move(stand_in), tracer, std::nullopt};
+}
+
 }  // namespace
 
 QueryLoan::QueryLoan(const SceneQuery& query, Tracer* tracer, PathTracer* path_tracer, MisTracer* mis_tracer) {
@@ -248,15 +270,6 @@ std::unique_ptr<QueryLoan> write_tracer(Writer& out, Tracer& tracer) {
     return loan;
 }
 
-static std::unique_ptr<QueryLoan> write_paths(Writer& out, PathTracer& tracer, MisTracer* mis_tracer) {
-    const std::optional<LentId> known = id_of_other_end(tracer);
-    auto loan = known ? nullptr : std::make_unique<QueryLoan>(tracer, nullptr, &tracer, mis_tracer);
-    out.put(known.has_value());
-    out.put(known ? *known : loan->id());
-    write(out, tracer.background());
-    return loan;
-}
-
 std::unique_ptr<QueryLoan> write_path_tracer(Writer& out, PathTracer& tracer) {
     return write_paths(out, tracer, nullptr);
 }
@@ -286,19 +299,6 @@ ReceivedTracer read_tracer(Reader& in) {
     }
     auto stand_in = std::make_unique<FarTracer>(id, max_ray_depth, background);
     Tracer* tracer = stand_in.get();
-    return {std::move(stand_in), tracer, std::nullopt};
-}
-
-template <typename Received>
-static Received read_paths(Reader& in, auto& (*lent_one)(LentId)) {
-    const bool own = in.get<bool>();
-    const auto id = in.get<LentId>();
-    const auto background = read<Color>(in);
-    if (own) {
-        return {nullptr, &lent_one(id), Use(lent(id).uses)};
-    }
-    auto stand_in = std::make_unique<FarPathTracer>(id, background);
-    FarPathTracer* tracer = stand_in.get();
     return {std::move(stand_in), tracer, std::nullopt};
 }
 

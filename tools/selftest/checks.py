@@ -17,6 +17,7 @@ from tools.selftest.stamps import Belongs, Stamps
 Verdict = Literal["passed", "failed", "skipped"]
 UNCHANGED = "as before: nothing that it depends on has changed"
 _COLORS = {"passed": "green", "failed": "red", "skipped": "yellow"}
+_LAST_LINES = 30  # of what failed, said again at the end
 
 
 @dataclass(frozen=True)
@@ -76,8 +77,8 @@ def _all_done(checks: Sequence[Check], console: Console, stamps: Stamps) -> Iter
 
 
 def run_checks(checks: Sequence[Check], console: Console, stamps: Stamps) -> int:
-    """Runs all checks whose inputs changed since they passed, prints each as it ends, then the table and the closing
-    line."""
+    """Runs all checks whose inputs changed since they passed, prints each as it ends, then the table, the last lines of
+    what failed once more, as they may stand far above, and the closing line."""
     done: list[_Done] = []
     for one in _all_done(checks, console, stamps):
         done.append(one)
@@ -93,6 +94,10 @@ def run_checks(checks: Sequence[Check], console: Console, stamps: Stamps) -> int
         verdict = one.report.verdict
         table.add_row(escape(one.check.name), f"[{_COLORS[verdict]}]{verdict}[/]", f"{one.seconds:.0f}")
     console.print(table)
+    for one in done:
+        if one.report.verdict == "failed":
+            lines = "\n".join(one.report.detail.rstrip().splitlines()[-_LAST_LINES:])
+            console.print(f"failed: {one.check.name}\n{lines}", markup=False, highlight=False)
     amount = {verdict: sum(one.report.verdict == verdict for one in done) for verdict in _COLORS}
     print(f"{amount['passed']} passed, {amount['failed']} failed, {amount['skipped']} skipped", flush=True)
     return 1 if amount["failed"] else 0

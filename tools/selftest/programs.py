@@ -1,6 +1,7 @@
 """Checks that build the C++ programs and run them: as usual, with sanitizers, by clang, and for Windows."""
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -107,12 +108,13 @@ LINES = "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG"  # all warnings; lin
 _QUICK = "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG"  # half the time to build, and lines in what they report
 
 
-def command(words: list[str | Path], cwd: Path, seconds: float = _TEST_SECONDS) -> Report:
-    """Passes when the program exits with 0."""
+def command(words: list[str | Path], cwd: Path, seconds: float = _TEST_SECONDS, progress: str = "(?!)") -> Report:
+    """Passes when the program exits with 0. Lines of its output that begin like `progress`, a pattern, are no news."""
     outcome = run(words, seconds=seconds, cwd=cwd)
     if outcome.code == 0 and not outcome.timed_out:
         return Report("passed")
-    output = (outcome.stdout + outcome.stderr)[-6000:]
+    lines = (outcome.stdout + outcome.stderr).splitlines()
+    output = "\n".join(line for line in lines if not re.match(progress, line))[-6000:]
     return Report("failed", f"it ran longer than {seconds:.0f} s\n{output}" if outcome.timed_out else output)
 
 
