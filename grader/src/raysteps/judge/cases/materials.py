@@ -2,13 +2,13 @@
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
 from raysteps.common.vectors import Vector, cross, dot, minus, times, unit
 from raysteps.judge.answers import Answer, Tolerance, channels, direction, first, number_answer, real, share_right
+from raysteps.judge.cases.microfacets import dielectric, rough_problem, smith_lambda, units, visible_problem
 from raysteps.judge.draws import (
     Samples,
     draws,
@@ -35,15 +35,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import (
-    DEVIATIONS,
-    Numbers,
-    happens_so_often,
-    has_mean,
-    have_one_mean,
-    is_like,
-    is_uniform,
-)
+from raysteps.judge.statistics import DEVIATIONS, Numbers
 
 _UP: Vector = (0.0, 0.0, 1.0)
 Mask = npt.NDArray[np.bool_]
@@ -223,52 +215,6 @@ _GGX_LAMBDA = Function(
 )
 
 
-# Visible normals. Stretched until the surface is a half sphere, and seen from its view, their tips fill evenly what is
-# seen of the half sphere: half a disk, and half a disk that is squeezed by the slant. So two even numbers tell them.
-
-_FEW, _MANY = 8, 16
-_MANY_NORMALS = 16_384
-
-
-def _seen_shares(normals: Numbers, view: Numbers, alpha: float) -> Numbers:
-    """Views and normals row by row."""
-    stretch = np.array([alpha, alpha, 1.0])
-    seen = view * stretch
-    seen /= np.linalg.norm(seen, axis=1, keepdims=True)
-    tips = normals / stretch
-    tips /= np.linalg.norm(tips, axis=1, keepdims=True)
-    across = np.stack([-seen[:, 1], seen[:, 0], np.zeros(len(seen))], axis=1)
-    size = np.linalg.norm(across, axis=1, keepdims=True)
-    across = np.where(size > 1e-9, across / np.maximum(size, 1e-9), np.array([1.0, 0.0, 0.0]))
-    up = np.cross(seen, across)
-    x, y = np.clip((tips * across).sum(axis=1), -1, 1), (tips * up).sum(axis=1)
-    half = np.sqrt(np.maximum(1 - x * x, 1e-12))
-    one = 0.5 + (x * half + np.arcsin(x)) / math.pi
-    other = (y / half + seen[:, 2]) / (1 + seen[:, 2])
-    return np.asarray(np.clip(np.stack([one, other], axis=1), 0.0, 1.0))
-
-
-def _visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
-    """Of one normal nothing can be told."""
-    problem = unit_problem(normals)
-    if problem:
-        return problem
-    if not (normals[:, 2] >= -1e-5).all():
-        return "a microfacet's normal points below the surface"
-    if len(normals) < 2:
-        return ""
-    shares = _seen_shares(normals, np.broadcast_to(np.array(view), normals.shape), alpha)
-    bins = _MANY if len(normals) >= _MANY_NORMALS else _FEW
-    across, up = shares[:, 0], shares[:, 1]
-    if not (is_uniform(across, 4 * bins) and has_mean(across, 0.5, math.sqrt(1 / 12))):
-        return "microfacets do not lean evenly to both sides of the view"
-    if not has_mean(up, 0.5, math.sqrt(1 / 12)):
-        return f"microfacets lean too much {'towards' if up.mean() < 0.5 else 'away from'} the view"
-    if not (is_uniform(up, 4 * bins) and is_uniform(shares, bins)):
-        return "microfacets do not come as often as they are seen"
-    return ""
-
-
 def _visible(draw: RandomSource, view: Vector, amount: int = 2048) -> Inputs:
     return {"view": Vec(view), "alpha": _alpha(draw, 0.1), **draws(draw, amount)}
 
@@ -279,7 +225,7 @@ _SAMPLE_VISIBLE_NORMAL = Function(
         read_directions,
         words_of_directions,
         lambda inputs, _, actual: (
-            _visible_problem(actual, vec_of(inputs, "view"), real_of(inputs, "alpha"))
+            visible_problem(actual, vec_of(inputs, "view"), real_of(inputs, "alpha"))
             if len(actual) == whole_of(inputs, "times")
             else "no proper answer came"
         ),
@@ -394,21 +340,12 @@ def _local(inputs: Inputs, directions: Numbers) -> tuple[Numbers, Numbers]:
     return np.broadcast_to(view, directions.shape), directions @ frame
 
 
-def _lambda(directions: Numbers, alpha: float) -> Numbers:
-    z2 = directions[:, 2] ** 2
-    return np.asarray((np.sqrt(1 + alpha * alpha * (1 - np.minimum(z2, 1.0)) / z2) - 1) / 2)
-
-
 def _schlick_of(f0: Vector, cosines: Numbers) -> Numbers:
     return np.asarray(np.array(f0) + (1 - np.array(f0)) * (1 - cosines[:, None]) ** 5)
 
 
 def _dots(one: Numbers, other: Numbers) -> Numbers:
     return np.asarray((one * other).sum(axis=1))
-
-
-def _units(v: Numbers) -> Numbers:
-    return np.asarray(v / np.linalg.norm(v, axis=1, keepdims=True))
 
 
 _WEIGHT = 2e-3  # of what the weight should be, besides rounding
@@ -430,78 +367,19 @@ def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
         return (wrong or "a number is NaN",) * 4
     if not (light[:, 2] > 0).all():
         return ("a direction leads below the surface",) * 4
-    half = _units(view + light)
+    half = units(view + light)
     cosines = np.clip(_dots(view, half), 0.0, 1.0)
-    seen, hidden = 1 + _lambda(view, alpha), _lambda(light, alpha)
+    seen, hidden = 1 + smith_lambda(view, alpha), smith_lambda(light, alpha)
     steep = light[:, 2] > _LEVEL
     right = _schlick_of(hit.fill.color, cosines) * (seen / (seen + hidden))[:, None]
     density = alpha**2 / (math.pi * ((alpha**2 - 1) * half[:, 2] ** 2 + 1) ** 2) / (4 * seen * view[:, 2])
     wrong_pdf = bool((np.abs(actual.pdfs - density)[steep] > 1e-4 + 5e-3 * density[steep]).any())
     return (
-        _rough_problem(half, actual.nothing, view, alpha),
+        rough_problem(half, actual.nothing, view, alpha),
         "the weight is not f cos / pdf" if _weights_differ(actual.weights, right, steep) else "",
         "the pdf is not that of the direction" if wrong_pdf else "",
         "rough metal gives a specular sample" if actual.is_specular_somewhere else "",
     )
-
-
-_TRIES = 20_000  # of the judge's own: what is lost, and what is left
-
-
-def _visible_normals(view: Numbers, alpha: float) -> Numbers:
-    """Drawn as Heitz (2018) does, always with the same numbers."""
-    rng = np.random.default_rng(14)
-    stretch = np.array([alpha, alpha, 1.0])
-    seen = view * stretch
-    seen /= np.linalg.norm(seen)
-    across = np.array([-seen[1], seen[0], 0.0])
-    across = across / np.linalg.norm(across) if np.linalg.norm(across) > 1e-9 else np.array([1.0, 0.0, 0.0])
-    radius, turn = np.sqrt(rng.random(_TRIES)), 2 * math.pi * rng.random(_TRIES)
-    x = radius * np.cos(turn)
-    share = 0.5 * (1 + seen[2])
-    y = (1 - share) * np.sqrt(1 - x * x) + share * radius * np.sin(turn)
-    height = np.sqrt(np.maximum(0.0, 1 - x * x - y * y))
-    tips = x[:, None] * across + y[:, None] * np.cross(seen, across) + height[:, None] * seen
-    return _units(tips * stretch)
-
-
-@lru_cache(maxsize=64)  # the cases of one submission after the other
-def _kept_shares(viewed: Vector, alpha: float, eta: float | None) -> Numbers:
-    """Of those of them whose direction does not lead through the surface; `eta`: of glass."""
-    view = np.array(viewed)
-    normals = _visible_normals(view, alpha)
-    cosines = np.clip(normals @ view, 0.0, 1.0)
-    above = 2 * cosines * normals[:, 2] - view[2] > 0
-    if eta is None:
-        return _shares_from(view, normals[above], alpha)
-    other = np.sqrt(np.maximum(0.0, 1 - eta * eta * (1 - cosines**2)))
-    below = (eta * cosines - other) * normals[:, 2] - eta * view[2] < 0
-    is_mirrored = np.random.default_rng(15).random(_TRIES) < _dielectric(cosines, eta)
-    return _shares_from(view, normals[np.where(is_mirrored, above, below)], alpha)
-
-
-def _shares_from(view: Numbers, normals: Numbers, alpha: float) -> Numbers:
-    return _seen_shares(normals, np.broadcast_to(view, normals.shape), alpha)
-
-
-def _rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, eta: float | None = None) -> str:
-    """Whether nothing comes as often as it should, and the other normals are those of the judge's own draws of which a
-    direction was kept."""
-    x, y, z = (float(value) for value in view[0])
-    own = _kept_shares((x, y, z), alpha, eta)
-    count = len(normals) + nothing
-    lost = _TRIES - len(own)
-    if not happens_so_often(nothing, count, lost, _TRIES):
-        return f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
-    mine = _shares_from(view[0], normals, alpha)
-    if not have_one_mean(mine[:, 0], own[:, 0]):
-        return "microfacets do not lean evenly to both sides of the view"
-    if not have_one_mean(mine[:, 1], own[:, 1]):
-        less = mine[:, 1].mean() < own[:, 1].mean()
-        return f"microfacets lean too much {'towards' if less else 'away from'} the view"
-    bins = _MANY if count >= _MANY_NORMALS else _FEW
-    even = all(is_like(mine[:, [i]], own[:, [i]], 4 * bins) for i in range(2)) and is_like(mine, own, bins)
-    return "" if even else "microfacets do not come as often as they are seen"
 
 
 def _rough(draw: RandomSource, low: float, high: float, rough: tuple[float, float], amount: int = 1024) -> Inputs:
@@ -550,14 +428,6 @@ def _read_glass(tokens: TokenReader) -> _Glass:
 _MOST_OF_GLASS = 40_000
 
 
-def _dielectric(cosines: Numbers, eta: float) -> Numbers:
-    sine2 = eta * eta * (1 - cosines**2)
-    other = np.sqrt(np.where(sine2 < 1, 1 - sine2, 1.0))
-    across = (eta * cosines - other) / (eta * cosines + other)
-    along = (cosines - eta * other) / (cosines + eta * other)
-    return np.where(sine2 < 1, 0.5 * (across**2 + along**2), 1.0)
-
-
 def _eta(hit: Hit) -> float:
     index = hit.fill.index
     return 1 / index if hit.front_face else index
@@ -577,17 +447,17 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     eta = _eta(hit)
     is_mirrored = next_[:, 2] > 0
     between = np.where(is_mirrored[:, None], view + next_, eta * view + next_)
-    normals = _units(between) * np.where(between[:, 2] < 0, -1.0, 1.0)[:, None]
+    normals = units(between) * np.where(between[:, 2] < 0, -1.0, 1.0)[:, None]
     cosines = np.clip(_dots(view, normals), 0.0, 1.0)
     if alpha == 0 and not (normals[:, 2] > 1 - 2e-4).all():
         return (_astray(is_mirrored, normals),) * 4
-    seen, hidden = 1 + _lambda(view, alpha), _lambda(next_, alpha)
+    seen, hidden = 1 + smith_lambda(view, alpha), smith_lambda(next_, alpha)
     right = (seen / (seen + hidden))[:, None] * np.ones(3)
     steep = np.abs(next_[:, 2]) > _LEVEL
     return (
-        _share_problem(is_mirrored, _dielectric(cosines, eta), samples.nothing),
+        _share_problem(is_mirrored, dielectric(cosines, eta), samples.nothing),
         "the weight is wrong" if _weights_differ(samples.weights, right, steep) else "",
-        _rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
+        rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
         "" if samples.are_specular else "a sample of glass is not specular",
     )
 

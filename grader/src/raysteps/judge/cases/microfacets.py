@@ -1,0 +1,144 @@
+"""Where a rough surface's visible normals lie, and what becomes of them: what samples of step 14 are held against.
+
+Directions are unit vectors in the frame of the surface, z along its normal, a row each; alpha is GGX's, eta the index
+on the side of the view divided by the other's. After Heitz, "Sampling the GGX Distribution of Visible Normals", 2018.
+"""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from raysteps.common.vectors import Vector
+from raysteps.judge.draws import unit_problem
+from raysteps.judge.statistics import Numbers, happens_so_often, has_mean, have_one_mean, is_like, is_uniform
+
+
+def units(v: Numbers) -> Numbers:
+    """Rows of length 1."""
+    return np.asarray(v / np.linalg.norm(v, axis=1, keepdims=True))
+
+
+def smith_lambda(directions: Numbers, alpha: float) -> Numbers:
+    """Of both sides alike: 1 / (1 + lambda) of the microfacets that face a direction are seen from there."""
+    z2 = directions[:, 2] ** 2
+    return np.asarray((np.sqrt(1 + alpha * alpha * (1 - np.minimum(z2, 1.0)) / z2) - 1) / 2)
+
+
+def dielectric(cosines: Numbers, eta: float) -> Numbers:
+    """The share that is mirrored, by Fresnel; 1 where refraction is impossible."""
+    sine2 = eta * eta * (1 - cosines**2)
+    other = np.sqrt(np.where(sine2 < 1, 1 - sine2, 1.0))
+    across = (eta * cosines - other) / (eta * cosines + other)
+    along = (cosines - eta * other) / (cosines + eta * other)
+    return np.where(sine2 < 1, 0.5 * (across**2 + along**2), 1.0)
+
+
+# Visible normals. Stretched until the surface is a half sphere, and seen from its view, their tips fill evenly what is
+# seen of the half sphere: half a disk, and half a disk that is squeezed by the slant. So two even numbers tell them.
+
+_FEW, _MANY = 8, 16
+_MANY_NORMALS = 16_384
+_ASKEW = "microfacets do not lean evenly to both sides of the view"
+_NOT_AS_SEEN = "microfacets do not come as often as they are seen"
+
+
+def _leans_too_much(*, towards: bool) -> str:
+    return f"microfacets lean too much {'towards' if towards else 'away from'} the view"
+
+
+def _seen_shares(normals: Numbers, view: Numbers, alpha: float) -> Numbers:
+    """Views and normals row by row."""
+    stretch = np.array([alpha, alpha, 1.0])
+    seen = view * stretch
+    seen /= np.linalg.norm(seen, axis=1, keepdims=True)
+    tips = normals / stretch
+    tips /= np.linalg.norm(tips, axis=1, keepdims=True)
+    across = np.stack([-seen[:, 1], seen[:, 0], np.zeros(len(seen))], axis=1)
+    size = np.linalg.norm(across, axis=1, keepdims=True)
+    across = np.where(size > 1e-9, across / np.maximum(size, 1e-9), np.array([1.0, 0.0, 0.0]))
+    up = np.cross(seen, across)
+    x, y = np.clip((tips * across).sum(axis=1), -1, 1), (tips * up).sum(axis=1)
+    half = np.sqrt(np.maximum(1 - x * x, 1e-12))
+    one = 0.5 + (x * half + np.arcsin(x)) / math.pi
+    other = (y / half + seen[:, 2]) / (1 + seen[:, 2])
+    return np.asarray(np.clip(np.stack([one, other], axis=1), 0.0, 1.0))
+
+
+def visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
+    """What is wrong with normals that should be visible ones; nothing of a single one, which tells nothing."""
+    problem = unit_problem(normals)
+    if problem:
+        return problem
+    if not (normals[:, 2] >= -1e-5).all():
+        return "a microfacet's normal points below the surface"
+    if len(normals) < 2:
+        return ""
+    shares = _seen_shares(normals, np.broadcast_to(np.array(view), normals.shape), alpha)
+    bins = _MANY if len(normals) >= _MANY_NORMALS else _FEW
+    across, up = shares[:, 0], shares[:, 1]
+    if not (is_uniform(across, 4 * bins) and has_mean(across, 0.5, math.sqrt(1 / 12))):
+        return _ASKEW
+    if not has_mean(up, 0.5, math.sqrt(1 / 12)):
+        return _leans_too_much(towards=bool(up.mean() < 0.5))
+    if not (is_uniform(up, 4 * bins) and is_uniform(shares, bins)):
+        return _NOT_AS_SEEN
+    return ""
+
+
+_TRIES = 20_000  # of the judge's own: what is lost, and what is left
+
+
+def _visible_normals(view: Numbers, alpha: float) -> Numbers:
+    """Drawn as Heitz (2018) does, always with the same numbers."""
+    rng = np.random.default_rng(14)
+    stretch = np.array([alpha, alpha, 1.0])
+    seen = view * stretch
+    seen /= np.linalg.norm(seen)
+    across = np.array([-seen[1], seen[0], 0.0])
+    across = across / np.linalg.norm(across) if np.linalg.norm(across) > 1e-9 else np.array([1.0, 0.0, 0.0])
+    radius, turn = np.sqrt(rng.random(_TRIES)), 2 * math.pi * rng.random(_TRIES)
+    x = radius * np.cos(turn)
+    share = 0.5 * (1 + seen[2])
+    y = (1 - share) * np.sqrt(1 - x * x) + share * radius * np.sin(turn)
+    height = np.sqrt(np.maximum(0.0, 1 - x * x - y * y))
+    tips = x[:, None] * across + y[:, None] * np.cross(seen, across) + height[:, None] * seen
+    return units(tips * stretch)
+
+
+@lru_cache(maxsize=64)  # the cases of one submission after the other
+def _kept_shares(viewed: Vector, alpha: float, eta: float | None) -> Numbers:
+    """Of those of them whose direction does not lead through the surface; `eta`: of glass."""
+    view = np.array(viewed)
+    normals = _visible_normals(view, alpha)
+    cosines = np.clip(normals @ view, 0.0, 1.0)
+    above = 2 * cosines * normals[:, 2] - view[2] > 0
+    if eta is None:
+        return _shares_from(view, normals[above], alpha)
+    other = np.sqrt(np.maximum(0.0, 1 - eta * eta * (1 - cosines**2)))
+    below = (eta * cosines - other) * normals[:, 2] - eta * view[2] < 0
+    is_mirrored = np.random.default_rng(15).random(_TRIES) < dielectric(cosines, eta)
+    return _shares_from(view, normals[np.where(is_mirrored, above, below)], alpha)
+
+
+def _shares_from(view: Numbers, normals: Numbers, alpha: float) -> Numbers:
+    return _seen_shares(normals, np.broadcast_to(view, normals.shape), alpha)
+
+
+def rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, eta: float | None = None) -> str:
+    """Whether nothing comes as often as it should, and the other normals are those of the judge's own draws of which a
+    direction was kept."""
+    x, y, z = (float(value) for value in view[0])
+    own = _kept_shares((x, y, z), alpha, eta)
+    count = len(normals) + nothing
+    lost = _TRIES - len(own)
+    if not happens_so_often(nothing, count, lost, _TRIES):
+        return f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
+    mine = _shares_from(view[0], normals, alpha)
+    if not have_one_mean(mine[:, 0], own[:, 0]):
+        return _ASKEW
+    if not have_one_mean(mine[:, 1], own[:, 1]):
+        return _leans_too_much(towards=bool(mine[:, 1].mean() < own[:, 1].mean()))
+    bins = _MANY if count >= _MANY_NORMALS else _FEW
+    even = all(is_like(mine[:, [i]], own[:, [i]], 4 * bins) for i in range(2)) and is_like(mine, own, bins)
+    return "" if even else _NOT_AS_SEEN
