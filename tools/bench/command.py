@@ -11,6 +11,7 @@ from rich.markup import escape
 from raysteps.course.project import Project, generated
 from tools.bench.docs import bench_docs
 from tools.bench.grading import bench_loop, grading
+from tools.bench.mitsuba import MitsubaOptions, bench_mitsuba
 from tools.bench.model import ParseNumbers, ParseRow, keep
 from tools.bench.pictures import ThreadsOptions, bench_threads, boxes
 from tools.bench.programs import ask_pinned, checked, portable
@@ -62,12 +63,13 @@ def _number(least: int, most: int) -> Callable[[str], int]:
     return read
 
 
-def _add_scenes(parser: argparse.ArgumentParser, otherwise: str) -> None:
-    parser.add_argument("scenes", nargs="*", type=Path, metavar="SCENE", help=f"NFF files instead of {otherwise}")
+def _add_scenes(parser: argparse.ArgumentParser, otherwise: str, kind: str = "NFF files") -> None:
+    parser.add_argument("scenes", nargs="*", type=Path, metavar="SCENE", help=f"{kind} instead of {otherwise}")
 
 
-def _add_size(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--size", type=_number(16, 8192), default=512, metavar="N", help="pixels of both sides (512)")
+def _add_size(parser: argparse.ArgumentParser, usual: int = 512) -> None:
+    words = f"pixels of both sides ({usual})"
+    parser.add_argument("--size", type=_number(16, 8192), default=usual, metavar="N", help=words)
 
 
 def _add_rounds(parser: argparse.ArgumentParser, rounds: int) -> None:
@@ -92,6 +94,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--every", type=_number(1, 1000000), default=64, metavar="N", help="slow ones: each n-th ray (64)")
     add.add_argument("--native", action="store_true", help="also measure a build for this very processor")
     add.add_argument("--no-povray", action="store_true", help="no whole pictures beside POV-Ray's")
+
+    add = commands.add_parser("mitsuba", help="time and noise of paths, beside Mitsuba 3")
+    _add_scenes(add, "the Cornell box and balls below a sky", "pbrt files of matt surfaces")
+    add.add_argument(
+        "--python", type=Path, metavar="FILE", help="a Python that has mitsuba; without it: how to get one"
+    )
+    _add_size(add, 128)
+    samples = "of a pixel: a square number (64)"
+    add.add_argument("--samples", type=_number(4, 4096), default=64, metavar="N", help=samples)
+    add.add_argument("--rounds", type=_number(2, 1000), default=6, metavar="N", help="pictures of each, in turns (6)")
 
     add = commands.add_parser("scale", help="how building, memory and tests grow with the number of surfaces")
     add.add_argument("--most", type=_number(100, 10_000_000), default=1_000_000, metavar="N", help="surfaces (1000000)")
@@ -129,6 +141,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             numbers = (given.size, given.depth, given.rounds, given.every)
             options = RenderOptions(given.scenes, *numbers, given.structures, given.native, not given.no_povray)
             return bench_render(project, options, console)
+        case "mitsuba":
+            race = MitsubaOptions(given.python, given.scenes, given.size, given.samples, given.rounds)
+            return bench_mitsuba(project, race, console)
         case "scale":
             return bench_scale(project, ScaleOptions(given.most, given.structures, given.rounds), console)
         case "threads":

@@ -12,12 +12,14 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_if_changed
 from raysteps.course.project import Project
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
+from tools.bench.mitsuba import time_ratio
 from tools.bench.model import (
     BoxesNumbers,
     BuildRays,
     GradingNumbers,
     LoopNumbers,
     Machine,
+    MitsubaNumbers,
     Numbers,
     ParseNumbers,
     PovrayRow,
@@ -96,6 +98,26 @@ def render_tables(document: RenderNumbers) -> str:
         heads = ("program", "tracing: times faster than POV-Ray, geometric mean", "of the processor")
         parts.append(markdown(heads, means))
     return "\n\n".join(parts)
+
+
+def mitsuba_tables(document: MitsubaNumbers) -> str:
+    """Time, noise, and both at once."""
+    rows = [
+        (
+            row.scene,
+            side.program,
+            spread(side.seconds, 3),
+            f"{side.variance:.3g}",
+            f"{side.mean:.5f}",
+            f"{time_ratio(row.programs[0], side):.2f}",
+        )
+        for row in document.rows
+        for side in row.programs
+    ]
+    heads = ("scene", "program", "seconds", "variance of a pixel", "mean light", "time for one error, to Mitsuba's")
+    size = f"{document.size}x{document.size}, {document.samples} samples of each pixel"
+    words = f"Mitsuba {document.version}, scalar_rgb; {size}. {machine_line(document.machine)}"
+    return f"{fill(words, 120, break_on_hyphens=False)}\n\n{markdown(heads, rows)}"
 
 
 def scale_tables(document: ScaleNumbers) -> str:
@@ -287,6 +309,7 @@ def parts_of(project: Project) -> dict[str, str | None]:
         "boxes": _part(project, BoxesNumbers, boxes_tables),
         "grading": _part(project, GradingNumbers, grading_tables),
         "render": _part(project, RenderNumbers, render_tables, _RAYS),
+        "mitsuba": _part(project, MitsubaNumbers, mitsuba_tables),
         "scale": _part(project, ScaleNumbers, scale_tables, _SCALE_TESTS, _SCALE_TIME),
         "threads": _part(project, ThreadsNumbers, threads_tables, _THREADS),
         "parse": _part(project, ParseNumbers, parse_tables),

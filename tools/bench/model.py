@@ -161,6 +161,40 @@ class RenderNumbers:
     povray: list[PovrayRow]
 
 
+# bench mitsuba
+
+
+@dataclass(frozen=True)
+class PathTimes:
+    """One program on one scene: what its picture takes, how far a pixel scatters, and its mean light."""
+
+    program: str
+    seconds: Spread
+    variance: Amount
+    mean: Amount
+
+
+@dataclass(frozen=True)
+class MitsubaRow:
+    """One picture by Mitsuba, then by ours."""
+
+    scene: str
+    programs: Annotated[list[PathTimes], Meta(min_length=2)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MitsubaNumbers:
+    """Paths beside Mitsuba's."""
+
+    name: ClassVar[str] = "mitsuba"
+    schema: Literal["raysteps/bench-mitsuba/v1"] = "raysteps/bench-mitsuba/v1"
+    machine: Machine
+    version: str
+    size: Several
+    samples: Several
+    rows: Annotated[list[MitsubaRow], Meta(min_length=1)]
+
+
 # bench scale
 
 
@@ -340,7 +374,16 @@ class GradingNumbers:
     costs: Annotated[list[Cost], Meta(min_length=1)]
 
 
-Numbers = BoxesNumbers | GradingNumbers | RenderNumbers | ScaleNumbers | ThreadsNumbers | ParseNumbers | LoopNumbers
+Numbers = (
+    BoxesNumbers
+    | GradingNumbers
+    | RenderNumbers
+    | MitsubaNumbers
+    | ScaleNumbers
+    | ThreadsNumbers
+    | ParseNumbers
+    | LoopNumbers
+)
 
 
 # What a benchmark leaves behind: JSON in build/bench.
