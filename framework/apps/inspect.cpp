@@ -22,7 +22,8 @@ void run(const InspectOptions& options) {
     const auto accelerator =
         with_mesh_details(make_accelerator(acceleration, scene.surfaces()), scene, options.picture.step);
     const StepOptions step{options.picture.step, options.picture.view, options.picture.depth};
-    PixelRecord record = inspect_pixel(scene, scene.camera, *accelerator, acceleration, step, options.x, options.y);
+    PixelRecord record =
+        inspect_pixel(scene, scene.camera, *accelerator, acceleration, step, options.x, options.y, options.path);
     record.scene = options.picture.scene;
     if (!options.json.empty()) {
         write_file(path_of(options.json), inspect_json(record));

@@ -1,5 +1,6 @@
 #include "apps/inspect_options.hpp"
 
+#include "inspect/inspect_pixel.hpp"
 #include "io/numbers.hpp"
 
 namespace raysteps {
@@ -19,6 +20,8 @@ X and Y count pixels from the top left corner, from 0.
                           boxes        what is in the paper's 64 boxes
                           octree       what the tree of step 06 finds (the default from there on)
                           bvh          what the tree of step 09 finds (the default for step 9)
+  --path N                from step 10 on: sample N of the pixel, from 1 to 4096, as `render` follows it when it is not
+                          told otherwise; else the ray through the middle of the pixel
   --json FILE             write the record, form raysteps/inspect/v1
   --quiet                 no text
   -h, --help              this text
@@ -41,6 +44,9 @@ InspectOptions parse_inspect_options(const std::vector<std::string>& arguments) 
     RaytraceOptions& picture = options.picture;
     CommandLine line(3, "a scene, X, Y and the options that --help lists");
     add_shared_options(line, picture);
+    line.option("--path", [&options](const std::string& text) {
+        options.path = number_between("--path", text, 1, k_max_inspected_sample);
+    });
     line.option("--json", options.json).flag("--quiet", picture.quiet);
     const std::vector<std::string> words = line.parse(arguments);
     if (picture.help) {
@@ -51,6 +57,9 @@ InspectOptions parse_inspect_options(const std::vector<std::string>& arguments) 
     }
     refuse_wide_trees(picture, "which asks eight at a time");
     check_accelerator(picture);
+    if (options.path && !is_of_part_two(picture.step)) {
+        throw UsageError("--path: expected a --step of 10 or more beside it, found " + std::to_string(picture.step));
+    }
     picture.scene = scene_of(words);
     options.x = pixel("X", words[1]);
     options.y = pixel("Y", words[2]);

@@ -1,5 +1,6 @@
 #pragma once
 // The command line of inspect.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ struct InspectOptions {
     RaytraceOptions picture;  ///< scene, step, view, size, depth, acceleration, quiet, help
     int x = 0;
     int y = 0;
-    std::string json;  ///< empty: none wanted
+    std::optional<int> path;  ///< of the pixel's samples, from 1 on; nothing: the ray through its middle
+    std::string json;         ///< empty: none wanted
 };
 
 extern const char* const k_inspect_usage;

@@ -35,6 +35,8 @@ TEST_CASE("Scene, pixel and options are read in any order", "[apps]") {
     CHECK(options.picture.size->height == 384);
     CHECK(options.json == "b.json");
     CHECK(options.picture.quiet);
+    CHECK_FALSE(options.path.has_value());
+    CHECK(parse_inspect_options({"a.pbrt", "1", "2", "--step", "13", "--path", "4096"}).path == 4096);
 }
 
 TEST_CASE("What inspect cannot do is said", "[apps]") {
@@ -46,6 +48,9 @@ TEST_CASE("What inspect cannot do is said", "[apps]") {
     CHECK(mentions(complaint_about({"a.nff", "1", "2", "--step", "100"}), "--step: expected a whole number"));
     CHECK(mentions(complaint_about({"a.nff", "1", "2", "--accel", "wide"}), "expected none, boxes, octree or bvh"));
     CHECK(mentions(complaint_about({"a.nff", "1", "2", "--crop", "1,2,3,4"}), "--crop: there is no such option"));
+    CHECK(mentions(complaint_about({"a.nff", "1", "2", "--path", "2", "--step", "9"}), "a --step of 10 or more"));
+    CHECK(mentions(complaint_about({"a.nff", "1", "2", "--step", "13", "--path", "0"}), "--path: expected a whole"));
+    CHECK(mentions(complaint_about({"a.nff", "1", "2", "--step", "13", "--path", "4097"}), "from 1 to 4096"));
     CHECK(mentions(complaint_about({"a.nff", "1", "2", "--json"}), "expected a value after it"));
     CHECK(complaint_about({"a.nff", "63", "47"}) == "no complaint");
 }

@@ -16,6 +16,9 @@ void write_pixel(JsonWriter& json, const PixelRecord& record) {
     json.key("pixel").begin_object();
     json.key("x").whole(static_cast<std::uint64_t>(record.x)).key("y").whole(static_cast<std::uint64_t>(record.y));
     json.end_object().line_break();
+    json.key("sample");
+    record.sample ? json.whole(static_cast<std::uint64_t>(*record.sample)) : json.null();
+    json.line_break();
 }
 
 void write_view(JsonWriter& json, const PixelRecord& record) {

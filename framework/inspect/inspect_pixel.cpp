@@ -1,9 +1,11 @@
 #include "inspect/inspect_pixel.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "inspect/ray_recorder.hpp"
 #include "render/encode.hpp"
+#include "render/film_sampler.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 
 namespace raysteps {
@@ -67,10 +69,23 @@ void list_near(const Scene& scene, PixelRecord& record) {
     }
 }
 
+/// The ray that is followed, and which random numbers its path takes.
+std::pair<Ray, SampleId> primary_of(const PixelRecord& record) {
+    if (!record.sample) {
+        return {primary_ray(record.camera, record.frame, record.x, record.y), SampleId{}};
+    }
+    const Camera camera = camera_of_step(record.camera, record.options.step);
+    const FilmSampler sampler(camera, k_max_sample_side, SamplingOptions{});
+    const auto index = static_cast<std::uint32_t>(*record.sample - 1);
+    const FilmSampler::Primary primary = sampler.halton_sample(record.x, record.y, index);
+    return {primary.ray, primary.sample};
+}
+
 }  // namespace
 
 PixelRecord inspect_pixel(const Scene& scene, const Camera& camera, const Accelerator& accelerator,
-                          Acceleration acceleration, const StepOptions& options, int x, int y) {
+                          Acceleration acceleration, const StepOptions& options, int x, int y,
+                          std::optional<int> sample) {
     PixelRecord record;
     record.options = options;
     record.acceleration = acceleration;
@@ -82,12 +97,14 @@ PixelRecord inspect_pixel(const Scene& scene, const Camera& camera, const Accele
     record.surfaces = scene.surfaces().size();
     record.x = x;
     record.y = y;
+    record.sample = sample;
 
     thread_stats() = Stats{};
-    record.eye.ray = primary_ray(camera, record.frame, x, y);
+    const auto [ray, id] = primary_of(record);
+    record.eye.ray = ray;
     RayRecorder rays(scene, accelerator, record);
     try {
-        record.color = make_integrator(scene, rays, options)->primary_color(record.eye.ray);
+        record.color = make_integrator(scene, rays, options)->primary_color(ray, id);
     } catch (const EndlessRays&) {
         record.endless = true;
     }

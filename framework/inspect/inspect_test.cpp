@@ -219,6 +219,36 @@ TEST_CASE("what is told of a path adds up to its light", "[inspect]") {
     CHECK(lamps > 0);
 }
 
+TEST_CASE("the paths of a pixel that are inspected one by one are those of its picture", "[inspect]") {
+    Scene scene = small_scene();
+    scene.background = {0.3F, 0.4F, 0.5F};
+    scene.camera.lens_radius = 0.2F;
+    scene.camera.focal_distance = 5.0F;
+    const auto accelerator = make_accelerator(Acceleration::none, scene.surfaces());
+    for (const int step : {10, 13}) {
+        RenderOptions options{options_of(step), Acceleration::none, 1, {}, false};
+        options.sample_side = 2;
+        const Rendering rendering = render(scene, options);
+        for (int at = 0; at < 24 * 18; at += 7) {
+            const int x = at % 24;
+            const int y = at / 24;
+            INFO("step " << step << ", pixel " << x << " " << y);
+            Color sum = k_black;
+            for (int sample = 1; sample <= 4; ++sample) {
+                const PixelRecord record =
+                    inspect_pixel(scene, scene.camera, *accelerator, Acceleration::none, options.step, x, y, sample);
+                REQUIRE(record.color.has_value());
+                sum += *record.color / 4.0F;
+            }
+            CHECK_THAT(rendering.estimates.at(x, y).mean, IsNear(sum, 1e-5F));
+        }
+    }
+    const PixelRecord record =
+        inspect_pixel(scene, scene.camera, *accelerator, Acceleration::none, options_of(13), 12, 16, 3);
+    CHECK(inspect_text(record).starts_with("pixel (12, 16) of 24x18, step 13, sample 3\n"));
+    CHECK(inspect_json(record).find("\"sample\": 3") != std::string::npos);
+}
+
 TEST_CASE("a path is told hit by hit", "[inspect]") {
     const PixelRecord record = inspected(small_scene(), Acceleration::none, options_of(13), 12, 16);
     const std::string text = inspect_text(record);

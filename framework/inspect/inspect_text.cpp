@@ -11,7 +11,8 @@ std::string heading(const PixelRecord& record) {
     std::string text = "pixel (" + std::to_string(record.x) + ", " + std::to_string(record.y) + ") of " +
                        std::to_string(camera.width) + "x" + std::to_string(camera.height);
     text += record.scene.empty() ? "" : ", " + record.scene;
-    return text + ", step " + std::to_string(record.options.step);
+    text += ", step " + std::to_string(record.options.step);
+    return text + (record.sample ? ", sample " + std::to_string(*record.sample) : "");
 }
 
 std::string scene_words(const PixelRecord& record) {

@@ -111,6 +111,7 @@ struct PixelRecord {
     std::uint64_t surfaces = 0;  ///< in the scene
     int x = 0;
     int y = 0;
+    std::optional<int> sample;  ///< of those of the pixel, from 1 on; nothing: the ray through its middle
     RayNode eye;
     bool endless = false;         ///< the rays went on far beyond the greatest depth, and were stopped
     std::optional<Color> color;   ///< of the pixel, before tone mapping

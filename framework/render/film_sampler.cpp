@@ -49,6 +49,12 @@ float offset_of(int fine, int pixel) {
     return (static_cast<float>(fine - pixel * k_fine) + 0.5F) / static_cast<float>(k_fine) - 0.5F;
 }
 
+/// What leaves on one side comes back on the other.
+glm::vec2 shifted(const glm::vec2& point, const glm::vec2& shift) {
+    const glm::vec2 moved = point + shift;
+    return moved - glm::step(glm::vec2(1.0F), moved);
+}
+
 /// With so many pixels around it, as far as there is a picture: beyond it step 01 promises nothing.
 Rect grown(const Rect& tile, int margin, const Camera& fine_camera) {
     const int left = std::max(tile.x - margin, 0);
@@ -72,13 +78,12 @@ std::vector<glm::vec2> FilmSampler::points_of_round(int round, const glm::vec2& 
     if (options_.sampler == Sampler::stratified) {
         return stratified_samples(side_, random);
     }
-    std::vector<glm::vec2> shifted;
+    std::vector<glm::vec2> points;
     const auto count = static_cast<std::size_t>(side_ * side_);
     for (const glm::vec2& point : std::span(halton_points_).subspan(static_cast<std::size_t>(round) * count, count)) {
-        const glm::vec2 moved = point + shift;
-        shifted.push_back(moved - glm::step(glm::vec2(1.0F), moved));
+        points.push_back(shifted(point, shift));
     }
-    return shifted;
+    return points;
 }
 
 /// The samples of all pixels of an area, row by row.
@@ -109,19 +114,39 @@ struct FilmSampler::Film {
 
 std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integrator& integrator) const {
     std::vector<FilmSample> samples;
-    SampleId sample{.pixel = RandomStream::philox({pixel_number(x, y), options_.seed, 0, 0}, {0, 0})[0]};
+    SampleId sample = first_sample(x, y);
     RandomStream random(options_.seed, pixel_number(x, y));
-    const glm::vec2 shift = options_.sampler == Sampler::halton ? random.next_2d() : glm::vec2(0.0F);
+    const glm::vec2 shift = shift_of(random);
     for (int round = 0; round == 0 || (round < k_most_rounds && !is_good_enough(samples)); ++round) {
         for (const glm::vec2& point : points_of_round(round, shift, random)) {
-            const int fine_x = fine_place(x, point.x, fine_camera_.width);
-            const int fine_y = fine_place(y, point.y, fine_camera_.height);
-            const Ray ray = through_lens(primary_ray(fine_camera_, frame_, fine_x, fine_y), sample);
-            samples.push_back({.x = fine_x, .y = fine_y, .light = integrator.primary_color(ray, sample)});
+            const Primary next = primary(x, y, point, sample);
+            samples.push_back({.x = next.x, .y = next.y, .light = integrator.primary_color(next.ray, sample)});
             ++sample.index;
         }
     }
     return samples;
+}
+
+SampleId FilmSampler::first_sample(int x, int y) const {
+    return {.pixel = RandomStream::philox({pixel_number(x, y), options_.seed, 0, 0}, {0, 0})[0]};
+}
+
+glm::vec2 FilmSampler::shift_of(RandomStream& random) const {
+    return options_.sampler == Sampler::halton ? random.next_2d() : glm::vec2(0.0F);
+}
+
+FilmSampler::Primary FilmSampler::primary(int x, int y, const glm::vec2& point, const SampleId& sample) const {
+    const int fine_x = fine_place(x, point.x, fine_camera_.width);
+    const int fine_y = fine_place(y, point.y, fine_camera_.height);
+    const Ray ray = through_lens(primary_ray(fine_camera_, frame_, fine_x, fine_y), sample);
+    return {.ray = ray, .sample = sample, .x = fine_x, .y = fine_y};
+}
+
+FilmSampler::Primary FilmSampler::halton_sample(int x, int y, std::uint32_t index) const {
+    RandomStream random(options_.seed, pixel_number(x, y));
+    SampleId sample = first_sample(x, y);
+    sample.index = index;
+    return primary(x, y, shifted(halton_points_.at(index), shift_of(random)), sample);
 }
 
 bool FilmSampler::is_good_enough(const std::vector<FilmSample>& samples) const {

@@ -53,6 +53,17 @@ public:
         PixelEstimate estimate;
     };
 
+    /// A sample before it is followed.
+    struct Primary {
+        Ray ray;
+        SampleId sample;
+        int x;  ///< of the finer picture
+        int y;
+    };
+
+    /// That sample of a pixel, from 0 on, as `pixels_of` follows it; of Halton's points only, below side * side.
+    [[nodiscard]] Primary halton_sample(int x, int y, std::uint32_t index) const;
+
     /// The tile's, row by row.
     [[nodiscard]] std::vector<Pixel> pixels_of(const Rect& tile, Integrator& integrator) const;
 
@@ -65,6 +76,9 @@ private:
     struct Film;
 
     [[nodiscard]] std::vector<FilmSample> samples_of(int x, int y, Integrator& integrator) const;
+    [[nodiscard]] SampleId first_sample(int x, int y) const;
+    [[nodiscard]] glm::vec2 shift_of(RandomStream& random) const;
+    [[nodiscard]] Primary primary(int x, int y, const glm::vec2& point, const SampleId& sample) const;
     [[nodiscard]] Ray through_lens(const Ray& ray, const SampleId& sample) const;
     [[nodiscard]] static PixelEstimate estimate_of(const std::vector<FilmSample>& samples);
     [[nodiscard]] bool is_good_enough(const std::vector<FilmSample>& samples) const;

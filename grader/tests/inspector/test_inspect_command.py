@@ -130,6 +130,26 @@ def test_the_last_step_that_still_works_is_found(tmp_path: Path) -> None:
     assert last_good_step(program, InspectOptions("scene.nff", "1", "2", 8)) == 4
 
 
+def test_a_path_is_asked_for_where_there_are_paths(tmp_path: Path) -> None:
+    options = InspectOptions("a.pbrt", "1", "2", 13, path="7")
+    assert options.words() == ["a.pbrt", "1", "2", "--step", "13", "--path", "7"]
+    program = script(tmp_path, 'case "$*" in *--step\\ 9\\ *--path*) exit 2 ;; *--step\\ 12*) kill -SEGV $$ ;; esac')
+    assert last_good_step(program, options) == 11
+
+
+def test_two_paths_of_a_pixel_are_two_records(project: Project, program: Path) -> None:
+    scene = str(project.scenes / "lessons" / "cornell.pbrt")
+    found = [
+        inspect(program, InspectOptions(scene, "20", "15", 13, SIZE, path)).record for path in (None, "1", "2", "2")
+    ]
+    records = [record for record in found if record is not None]
+    assert [record.sample for record in records] == [None, 1, 2, 2]
+    assert records[2] == records[3]
+    assert len({str(record.color) for record in records}) == 3
+    with pytest.raises(UsageError, match="--path: expected a --step of 10 or more beside it, found 8"):
+        inspect(program, InspectOptions(scene, "20", "15", 8, SIZE, "1"))
+
+
 @pytest.mark.parametrize("scene", ["acne-corner", "cones", "glass", "inside-sphere", "many-spheres", "overexposed"])
 def test_a_pixel_has_the_bytes_and_the_counts_of_the_picture(
     project: Project, program: Path, raytrace: Path, tmp_path: Path, scene: str

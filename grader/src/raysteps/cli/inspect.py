@@ -54,6 +54,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", metavar="WxH", help="pixels of the picture (the scene's own)")
     parser.add_argument("--depth", metavar="D", help="longest chain of rays, the eye ray included (5)")
     parser.add_argument("--view", choices=["color", "normals"], help="what step 2 shows (color)")
+    words = "from step 10 on: sample N of the pixel, from 1 on, instead of the ray through its middle"
+    parser.add_argument("--path", metavar="N", help=words)
     kit = parser.get_default(STUDENTS_KIT)
     offered = list(_STRUCTURES) if kit is None else ["none", *built_trees(kit)]
     parser.add_argument(
@@ -88,7 +90,8 @@ def _options(project: Project, arguments: argparse.Namespace) -> InspectOptions:
             print(f"raysteps: {said}", file=sys.stderr)
     at = words.index("--step") if "--step" in words else len(words)
     step = int((words[at + 1 : at + 2] or [usual_step(project)])[0])
-    return InspectOptions(arguments.scene, arguments.x, arguments.y, step, (*words[:at], *words[at + 2 :]))
+    given = (*words[:at], *words[at + 2 :])
+    return InspectOptions(arguments.scene, arguments.x, arguments.y, step, given, arguments.path)
 
 
 def _say_unfinished(project: Project, options: InspectOptions) -> None:

@@ -1,11 +1,11 @@
 """What the program inspect writes of one pixel: these classes are the form raysteps/inspect/v1."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Literal, TypedDict
 
 from msgspec import Meta
 
-from raysteps.common.documents import Count
+from raysteps.common.documents import OPTIONAL, Count
 
 Number = int | float | Literal["inf", "-inf", "nan"]  # one that is not finite is a word
 Triple = Annotated[list[Number], Meta(min_length=3, max_length=3)]
@@ -273,6 +273,7 @@ class Record:
     counts: SearchCounts
     left_out: LeftOut
     near: list[NearSurface]
+    sample: Annotated[int, Meta(ge=1)] | None = field(default=None, metadata=OPTIONAL)  # nothing: the pixel's middle
 
     @property
     def is_of_part_two(self) -> bool:

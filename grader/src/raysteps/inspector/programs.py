@@ -13,6 +13,7 @@ from raysteps.inspector.model import Record
 _SECONDS = 30
 _MAX_BYTES = 64 << 20
 _USAGE = 2
+_FIRST_WITH_SAMPLES = 10
 
 
 @dataclass(frozen=True)
@@ -24,9 +25,12 @@ class InspectOptions:
     y: str
     step: int
     options: tuple[str, ...] = ()
+    path: str | None = None  # which sample of the pixel; there is but one before part two
 
     def words(self, step: int | None = None) -> list[str]:
-        return [self.scene, self.x, self.y, "--step", str(step or self.step), *self.options]
+        number = step or self.step
+        path = () if self.path is None or (step is not None and step < _FIRST_WITH_SAMPLES) else ("--path", self.path)
+        return [self.scene, self.x, self.y, "--step", str(number), *self.options, *path]
 
 
 @dataclass(frozen=True)
