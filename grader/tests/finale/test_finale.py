@@ -2,8 +2,11 @@
 
 import argparse
 import re
+import sys
 from pathlib import Path
 from shutil import rmtree
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +18,7 @@ from raysteps.cli.app import main, new_parser
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.finale import own_pictures
 from raysteps.finale.finale_page import can_be_written, in_words, poster
 from raysteps.finale.own_pictures import reach_of
 from raysteps.images.compare import read_png
@@ -115,6 +119,62 @@ def test_what_is_missing_is_said_and_the_rest_is_drawn(
     assert "The work" not in page
     caption = page.partition("<figcaption>")[2].partition("</figcaption>")[0]
     assert re.search(r"4 rays\s+through each\. That makes 128 thousand rays and 256 thousand tests\.", caption)
+
+
+@pytest.fixture
+def both_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    course = tmp_path / "course.toml"
+    course.write_text("parts = [1, 2]\n")
+    monkeypatch.setenv("RAYSTEPS_COURSE", str(course))
+
+
+@pytest.fixture
+def grey_denoiser(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In place of Open Image Denoise: as if the whole picture were light 0.5."""
+
+    def denoise(light: np.ndarray[Any, Any], *, hdr: bool) -> np.ndarray[Any, Any]:
+        assert hdr, "light is linear and may be above 1"
+        assert light.dtype == np.float32
+        assert light.std() > 0
+        return np.full_like(light, 0.5)
+
+    monkeypatch.setitem(sys.modules, "pyoidn", SimpleNamespace(denoise=denoise, __spec__=object()))
+
+
+@pytest.mark.usefixtures("with_reference", "both_parts", "grey_denoiser")
+def test_a_scene_of_part_two_is_drawn_with_its_steps_and_cleaned(
+    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(own_pictures, "_SMALL", 32)
+    scene = str(project.scenes / "lessons" / "soft-shadows.pbrt")
+    words = (scene, "--impl", "reference", "--size", "200x160", "--samples", "4", "--denoise", "-o", str(tmp_path))
+    assert _run(project, *words) == 0
+    assert "4 rays for each pixel" in capsys.readouterr().out
+    assert (read_png(tmp_path / "finale.png") == 188).all(), "0.5 by the curve of sRGB"
+    assert read_png(tmp_path / "finale-noisy.png").std() > 10
+    page = (tmp_path / "finale.html").read_text("utf-8")
+    assert page.count('alt="After step') == 4
+    assert page.count("lamps that have a size shine from step 12 on") == 2
+    assert "cleaned by Open Image Denoise" in page
+
+
+@pytest.mark.usefixtures("both_parts")
+def test_what_cannot_be_cleaned_is_said_before_anything_is_drawn(
+    project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command, "build_program", lambda *words: pytest.fail("it was built"))
+    with pytest.raises(UsageError, match=r"expected a scene of part two \(\.pbrt\)"):
+        _run(project, "--denoise", "-o", str(tmp_path / "out"))
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    scene = str(project.scenes / "lessons" / "soft-shadows.pbrt")
+    with pytest.raises(UsageError, match="pip install pyoidn=="):
+        _run(project, scene, "--denoise", "-o", str(tmp_path / "out"))
+
+
+def test_a_scene_of_part_two_needs_part_two(project: Project, tmp_path: Path) -> None:
+    scene = str(project.scenes / "lessons" / "soft-shadows.pbrt")
+    with pytest.raises(UsageError, match=r"ends in \.pbrt is for part two: expected step 10"):
+        _run(project, scene, "--impl", "reference", "-o", str(tmp_path / "out"))
 
 
 def test_without_the_first_step_there_is_no_picture(tmp_path: Path) -> None:

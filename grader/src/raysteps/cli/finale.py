@@ -21,6 +21,7 @@ from raysteps.common.text import clean, count, join_and
 from raysteps.common.text import size as shown_size
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
+from raysteps.finale.denoising import refuse_without_denoiser
 from raysteps.finale.finale_page import Finale, Station, can_be_written, finale_page, in_words, poster
 from raysteps.finale.own_pictures import NotDrawn, OwnProgram, Reach, reach_of
 from raysteps.images.compare import write_png
@@ -31,7 +32,9 @@ from raysteps.toolchain.cmake import release_tree
 _SCENE, _TITLE = "generated/ripples.nff", "Ripples"
 _TEMPLATE = "template.nff"
 _SIZE, _SMALL_SIZE = "1600x900", "640x360"
-_SAMPLES, _FEW_SAMPLES = 9, 4
+_SAMPLES, _FEW_SAMPLES, _NOISY_SAMPLES = 9, 4, 64
+_OF_PART_TWO = ".pbrt"
+_BLACK = "The picture is black: lamps that have a size shine from step 12 on."
 _SIDE = (160, 8192)  # pixels
 _SQUARES = [side * side for side in range(1, 9)]
 _LONGEST = 60
@@ -69,7 +72,7 @@ def _threads(word: str) -> str:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What to draw, how large and how smooth, and where to."""
-    parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"an NFF file (scenes/{_SCENE})")
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"an NFF or pbrt file (scenes/{_SCENE})")
     parser.add_argument("--new", type=Path, metavar="FILE.nff", help="write a scene to begin with, and draw nothing")
     parser.add_argument("-o", "--out", type=Path, metavar="FOLDER", help="where the page goes (build/finale)")
     parser.add_argument(
@@ -87,7 +90,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"of the picture, from {_SIDE[0]} to {_SIDE[1]} pixels a side ({size}; of your own scene what it says)",
     )
     parser.add_argument(
-        "--samples", type=_samples, metavar="N", help=f"rays for each pixel: 1, 4, 9, 16 ... 64 ({samples})"
+        "--samples",
+        type=_samples,
+        metavar="N",
+        help=f"rays for each pixel: 1, 4, 9, 16 ... 64 ({samples}), of part two {_NOISY_SAMPLES}",
+    )
+    parser.add_argument(
+        "--denoise",
+        action="store_true",
+        help="take the noise out of a picture of part two, by Open Image Denoise, if that is installed",
     )
     parser.add_argument("--threads", type=_threads, metavar="N", help="the pictures are the same for any number")
     add_impl(parser)
@@ -111,18 +122,19 @@ def _new_scene(project: Project, path: Path, console: Console) -> int:
     return 0
 
 
-def _reach(project: Project, impl: str) -> Reach:
+def _reach(project: Project, impl: str, *, part_two: bool) -> Reach:
     steps = read_steps(project)
-    if impl == "reference":
-        return reach_of(steps, {step.id for step in steps})
-    left = {step.id for upto in steps for step, _ in unfinished(project, upto.index)}
-    reach = reach_of(steps, {step.id for step in steps} - left)
+    mine = impl == "mine"
+    left = {step.id for upto in steps for step, _ in unfinished(project, upto.index)} if mine else set()
+    reach = reach_of(steps, {step.id for step in steps} - left, part_two=part_two)
     if not any(not step.is_about_a_tree for step in reach.drawn):
         first = steps[0]
         raise UsageError(
             f"step {first.number} is not written yet, and without it there is no picture: expected its functions in "
             f"steps/{first.path.as_posix()}; {own_command()} watch {first.number}"
         )
+    if part_two and not any(step.part > 1 for step in reach.drawn):
+        raise UsageError(f"a scene that ends in {_OF_PART_TWO} is for part two: expected step 10, and all before it")
     return reach
 
 
@@ -163,19 +175,22 @@ def _stations(
     console: Console,
 ) -> list[Station]:
     found = []
-    for step in steps:
+    for step in filter(reach.shows, steps):
         pixels = None
         if step in reach.drawn:
             console.print(f"step {step.number}: {step.title}", style="dim", markup=False, highlight=False)
             pixels = own.small(reach, step, shape)
-        found.append(Station(step, pixels, notes.get(step.id, "")))
+        note = notes.get(step.id, "")
+        if reach.part_two and pixels is not None and not pixels.any():
+            pixels, note = None, f"{_BLACK} {note}".rstrip()
+        found.append(Station(step, pixels, note))
     return found
 
 
 def _say_first(reach: Reach, impl: str, scene: str, samples: int, console: Console) -> None:
     missing = [f"{step.number} {step.title}{' (bonus)' if step.bonus else ''}" for step in reach.missing]
     said = [f"not written yet, so without it: {join_and(missing)}"] if missing else []
-    if not reach.trees:
+    if reach.tree == "none":
         tree = next((step for step in reach.missing if step.is_about_a_tree), None)
         without = "" if tree is None else f"without step {tree.number} "
         said.append(f"{without}every ray asks every surface, which takes long")
@@ -188,10 +203,11 @@ def _make(
     project: Project, arguments: argparse.Namespace, own: OwnProgram, reach: Reach, out: Path, console: Console
 ) -> None:
     ours = arguments.scene is None
-    samples = arguments.samples or (_SAMPLES if reach.trees else _FEW_SAMPLES)
-    size = arguments.size or ((_SIZE if reach.trees else _SMALL_SIZE) if ours else None)
+    usual = _NOISY_SAMPLES if reach.part_two else _SAMPLES if reach.tree != "none" else _FEW_SAMPLES
+    samples = arguments.samples or usual
+    size = arguments.size or ((_SIZE if reach.tree != "none" else _SMALL_SIZE) if ours else None)
     _say_first(reach, arguments.impl, short_path(Path(own.scene)), samples, console)
-    large = own.large(reach, size, samples)
+    large = own.large(reach, size, samples, denoise=arguments.denoise)
     notes = _notes(project, reach, arguments.impl)
     stations = _stations(own, reach, read_steps(project), large.pixels.shape, notes, console)
     counted = own.counted(reach, large)
@@ -202,10 +218,13 @@ def _make(
     words = (
         f"Ray traced by {'a program of my own' if arguments.impl == 'mine' else 'the reference'}, written in {steps}"
     )
+    words += ", and cleaned by Open Image Denoise" if arguments.denoise else ""
     rays = f"{in_words(large.work.rays)} rays"
     finale = Finale(title, arguments.name, f"{words}.", large, stations, counted, own_command())
     page = finale_page(finale).encode("utf-8", "replace")
     write_png(large.pixels, out / "finale.png")
+    if large.noisy is not None:
+        write_png(large.noisy, out / "finale-noisy.png")
     write_png(poster(large.pixels, title, arguments.name, f"{words}: {rays}"), out / "poster.png")
     write_out(out / "finale.html", page)
     said = [f"drawn in {large.seconds:.0f} s: {rays}"]
@@ -232,11 +251,16 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         return _new_scene(project, arguments.new, console)
     scene = arguments.scene or os.fspath(project.scenes / _SCENE)
     scene = scene_there(project, scene)
-    if arguments.scene is not None and arguments.size is None:
+    part_two = Path(scene).suffix.lower() == _OF_PART_TWO
+    if arguments.denoise:
+        if not part_two:
+            raise UsageError("--denoise: expected a scene of part two (.pbrt): what part one draws has no noise")
+        refuse_without_denoiser()
+    if arguments.scene is not None and arguments.size is None and not part_two:
         _check_resolution(scene)
     out: Path = arguments.out or project.build / "finale"
     usable_folder(out)
-    reach = _reach(project, arguments.impl)
+    reach = _reach(project, arguments.impl, part_two=part_two)
     program = build_program(release_tree(project), "raytrace", arguments.impl)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         threads = () if arguments.threads is None else ("--threads", arguments.threads)

@@ -6,16 +6,18 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.course.manifest import Step
+from raysteps.finale.denoising import denoised
 from raysteps.images.compare import Pixels, read_png
+from raysteps.images.noise import read_estimates
 from raysteps.images.render import read_work
 from raysteps.results.model import Work
 
 _SMALL = 480  # pixels: the longer side of a picture of one step
-_SMALL_SAMPLES = "4"
+_SMALL_SAMPLES, _SMALL_NOISY = "4", "16"
 _COUNTED = 160  # pixels: small, as every surface is tested for every ray
 _LARGEST_COUNTED = 20_000  # surfaces
 _SECONDARY = {"shadow": "shadow rays", "reflect": "reflected rays", "refract": "refracted rays"}
-_LAST_PICTURE = 8  # step 09 draws the same
+_LAST_OF_PART_ONE = 8  # step 09 draws the same
 
 
 class NotDrawn(Exception):
@@ -32,11 +34,17 @@ class Reach:
 
     drawn: tuple[Step, ...]
     missing: tuple[Step, ...]
+    part_two: bool = False  # the scene is one of part two, whose steps go on from those of part one
 
     @property
     def last(self) -> int:
         """Whose picture shows all of them."""
-        return max(min(step.index, _LAST_PICTURE) for step in self.drawn if not step.is_about_a_tree)
+        indices = [step.index for step in self.drawn if not step.is_about_a_tree]
+        return max(indices) if self.part_two else min(max(indices), _LAST_OF_PART_ONE)
+
+    def shows(self, step: Step) -> bool:
+        """Whether the page has a picture after that step, or a word why there is none."""
+        return step.part > 1 or not self.part_two
 
     @property
     def trees(self) -> dict[str, str]:
@@ -47,8 +55,9 @@ class Reach:
 
     @property
     def tree(self) -> str:
-        """The one to draw with."""
-        return next(reversed(self.trees), "none")
+        """The one to draw with. Where part one is no part of the course the reference stands in for it."""
+        is_given = all(step.part > 1 for step in (*self.drawn, *self.missing))
+        return next(reversed(self.trees), "octree" if is_given else "none")
 
     def accel_of(self, step: Step) -> str:
         """A step that is about a tree is drawn with its own, all others with the quickest: the picture is the same."""
@@ -61,7 +70,7 @@ def _size(longest: int, shape: tuple[int, ...]) -> str:
     return f"{max(1, round(shape[1] * scale))}x{max(1, round(shape[0] * scale))}"
 
 
-def reach_of(steps: Sequence[Step], written: set[str]) -> Reach:
+def reach_of(steps: Sequence[Step], written: set[str], *, part_two: bool = False) -> Reach:
     """A step that changes the picture needs those before it; trees and bonuses may be left out."""
     drawn: list[Step] = []
     broken = False
@@ -71,7 +80,7 @@ def reach_of(steps: Sequence[Step], written: set[str]) -> Reach:
             drawn.append(step)
         elif not (step.bonus or step.is_about_a_tree):
             broken = True
-    return Reach(tuple(drawn), tuple(step for step in steps if step not in drawn))
+    return Reach(tuple(drawn), tuple(step for step in steps if step not in drawn), part_two)
 
 
 @dataclass(frozen=True)
@@ -92,6 +101,7 @@ class LargePicture:
     secondary: dict[str, int]  # rays behind those of the eye, by what people call them
     seconds: float
     surfaces: int  # of the scene
+    noisy: Pixels | None = None  # as it was drawn, where the noise was taken out
 
 
 @dataclass(frozen=True)
@@ -114,14 +124,18 @@ class OwnProgram:
     def _counters(self) -> Path:
         return self.folder / "stats.json"
 
-    def large(self, reach: Reach, size: str | None, samples: int) -> LargePicture:
+    def large(self, reach: Reach, size: str | None, samples: int, *, denoise: bool = False) -> LargePicture:
         """Without a size it is the scene's own."""
+        estimates = self.folder / "estimates"
         sized = () if size is None else ("--size", size)
         words = ("--step", str(reach.last), "--accel", reach.tree, "--samples", str(samples), *sized)
+        words += ("--estimates", str(estimates)) if denoise else ()
         path = self._draw("the large picture", *words, "--stats", str(self._counters()))
         rays = {name: int(self._told(kind)) for kind, name in _SECONDARY.items()}
         seconds, surfaces = self._told("render_seconds"), int(self._told("surfaces"))
-        return LargePicture(read_png(path), samples, self._work(), rays, seconds, surfaces)
+        drawn = read_png(path)
+        shown = denoised(read_estimates(estimates.read_bytes()).mean) if denoise else drawn
+        return LargePicture(shown, samples, self._work(), rays, seconds, surfaces, drawn if denoise else None)
 
     def _work(self) -> Work:
         work = read_work(self._counters().read_bytes())
@@ -138,7 +152,8 @@ class OwnProgram:
         size = _size(_SMALL, shape)
         at = str(min(step.index, reach.last) if step.is_about_a_tree else step.index)
         view = ("--view", "normals") if step.index == 2 else ()
-        words = ("--step", at, *view, "--accel", reach.accel_of(step), "--samples", _SMALL_SAMPLES, "--size", size)
+        samples = _SMALL_NOISY if reach.part_two else _SMALL_SAMPLES
+        words = ("--step", at, *view, "--accel", reach.accel_of(step), "--samples", samples, "--size", size)
         return read_png(self._draw(f"the picture of step {step.number}", *words, "--quiet"))
 
     def counted(self, reach: Reach, large: LargePicture) -> list[Counted]:
@@ -148,7 +163,8 @@ class OwnProgram:
         size = _size(_COUNTED, large.pixels.shape)
         found = []
         for accel, name in {"none": "every surface", **reach.trees}.items():
-            words = ("--step", str(reach.last), "--accel", accel, "--size", size, "--stats", str(self._counters()))
-            self._draw(f"the picture that is counted ({name})", *words, "--quiet")
+            words = ("--step", str(reach.last), "--accel", accel, "--samples", "1", "--size", size)
+            stats = ("--stats", str(self._counters()))
+            self._draw(f"the picture that is counted ({name})", *words, *stats, "--quiet")
             found.append(Counted(name, self._work()))
         return found
