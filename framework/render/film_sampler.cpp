@@ -79,7 +79,7 @@ std::vector<glm::vec2> FilmSampler::points_of_round(int round, const glm::vec2& 
         return stratified_samples(side_, random);
     }
     std::vector<glm::vec2> points;
-    const auto count = static_cast<std::size_t>(side_ * side_);
+    const std::size_t count = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
     for (const glm::vec2& point : std::span(halton_points_).subspan(static_cast<std::size_t>(round) * count, count)) {
         points.push_back(shifted(point, shift));
     }
