@@ -27,6 +27,7 @@ KINDS: dict[str, Kind] = {
     "ripples": Kind(ripples.build, 16, 100),
     "vase": Kind(meshes.vase, 6, 200),
     "knot": Kind(meshes.knot, 5, 200),
+    "studio": Kind(meshes.studio, 6, 200),
 }
 
 

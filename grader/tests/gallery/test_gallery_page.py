@@ -1,5 +1,6 @@
 """The gallery in a browser: walking, choosing both sides, scenes, and a student's pictures beside the reference's."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +48,20 @@ def gallery(tmp_path: Path, steps: list[Step]) -> Path:
 def with_mine(tmp_path: Path, steps: list[Step]) -> Path:
     path = tmp_path / "index.html"
     path.write_text(gallery_page(steps, [_scene(0, _SCRIPT, steps, mine=True)]), "utf-8")
+    return path
+
+
+@pytest.fixture
+def in_two_scenes(tmp_path: Path, steps: list[Step]) -> Path:
+    """The first shows the steps up to 06, the second those from 05 on."""
+    path = tmp_path / "index.html"
+    scenes = [_scene(n, f"scene {n}", steps, mine=False) for n in (0, 1)]
+    shown = (range(6), range(4, len(steps)))
+    scenes = [
+        replace(scene, reference=[shot if at in which else None for at, shot in enumerate(scene.reference)])
+        for scene, which in zip(scenes, shown, strict=True)
+    ]
+    path.write_text(gallery_page(steps, scenes), "utf-8")
     return path
 
 
@@ -98,6 +113,30 @@ def test_it_begins_with_the_first_and_the_last_and_then_walks(open_page: OpenPag
     assert page.is_disabled("#next")
     page.keyboard.press("n")
     assert page.inner_text("#plate-title") == "09 Bounding volumes"
+
+
+def test_where_a_scene_ends_the_walk_goes_on_in_one_that_shows_the_next_step(
+    open_page: OpenPage, in_two_scenes: Path
+) -> None:
+    page = open_page(in_two_scenes)
+    assert _shown(page) == _colours(0, 0, 4)
+    page.click("[data-go='5']")
+    assert page.get_attribute("[data-scene='0']", "aria-pressed") == "true"
+    page.click("#next")
+    assert _shown(page) == _colours(1, 4, 6), "step 06 changes nothing in it"
+    assert page.inner_text("#plate-title").startswith("07")
+    assert page.inner_text("#scene-words") == "About scene 1."
+    assert page.locator(".card.elsewhere").count() == 4
+    page.click("[data-go='1']")
+    assert _shown(page) == _colours(0, 0, 1)
+    page.click("[data-scene='1']")
+    assert _shown(page) == _colours(1, 4, 7), "the scene itself, before its walk"
+    assert page.inner_text("#new").startswith("To the left, the scene after step 05")
+    page.click("#next")
+    page.click("#next")
+    page.click("#previous")
+    page.click("#previous")
+    assert page.is_disabled("#previous")
 
 
 def test_on_a_phone_the_strip_shows_the_whole_of_what_has_the_focus(open_page: OpenPage, gallery: Path) -> None:

@@ -12,12 +12,15 @@ from rich.markup import escape
 from raysteps.common.errors import UsageError
 from raysteps.common.files import usable_folder, write_out
 from raysteps.common.text import size as shown_size
+from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
 from raysteps.gallery.shots import (
     CHOSEN,
+    SAMPLES,
     GalleryScene,
     MySteps,
+    PictureOptions,
     gallery_scenes,
     my_steps,
     reference_shots,
@@ -27,8 +30,8 @@ from raysteps.report.terminal import progress, short_path
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
-SIZE = "800x600"
 _LEAST, _MAX = 16, 2048  # pixels along a side
+_MAX_SIDE = 64  # samples along the side of a pixel
 
 
 def _size(word: str) -> str:
@@ -36,6 +39,12 @@ def _size(word: str) -> str:
     if found is None or not all(_LEAST <= int(side) <= _MAX for side in found.groups()):
         raise argparse.ArgumentTypeError(f"{word}: expected WxH in pixels, each from {_LEAST} to {_MAX}, like 800x600")
     return word
+
+
+def _samples(word: str) -> int:
+    if not re.fullmatch(r"[0-9]{1,4}", word) or int(word) not in (side * side for side in range(1, _MAX_SIDE + 1)):
+        raise argparse.ArgumentTypeError(f"{word}: expected a square number from 1 to {_MAX_SIDE**2}, like 100")
+    return int(word)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,28 +55,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="S",
-        help=f"an NFF file, or the name of a scene of the kit; may be repeated ({', '.join(CHOSEN)})",
+        help=f"an NFF or pbrt file, or the name of a scene of the kit; may be repeated ({', '.join(CHOSEN)})",
     )
     parser.add_argument("--mine", action="store_true", help="show the pictures of your own steps, too")
-    parser.add_argument("--size", type=_size, default=SIZE, metavar="WxH", help=f"of the pictures ({SIZE})")
+    sizes = "800x600; 480x360 for scenes of part two"
+    parser.add_argument("--size", type=_size, metavar="WxH", help=f"of the pictures ({sizes})")
+    samples = f"of a pixel in scenes of part two: four times as many halve the noise ({SAMPLES})"
+    parser.add_argument("--samples", type=_samples, default=SAMPLES, metavar="N", help=samples)
 
 
-def _entry(kit: BuiltKit, scene: GalleryScene, size: str, own: MySteps | None, say: ProgressCallback) -> GalleryEntry:
-    shots = reference_shots(kit, scene, size, say)
+def _entry(
+    kit: BuiltKit, scene: GalleryScene, options: PictureOptions, own: MySteps | None, say: ProgressCallback
+) -> GalleryEntry:
+    shots = reference_shots(kit, scene, options, say)
     work_maps = reference_work_maps(kit, scene, say)
     if own is None:
         return GalleryEntry(scene, shots, work_maps)
     mine = []
     for step in kit.steps:
         say(f"{scene.name}: your step {step.number}")
-        mine.append(own.shot(step, scene, size))
+        mine.append(own.shot(step, scene, options))
     return GalleryEntry(scene, shots, work_maps, mine, own.work_maps(scene))
 
 
 def _notes(scenes: Sequence[GalleryEntry], kit: BuiltKit) -> list[str]:
     """Of steps without a picture; each note once."""
     pairs = [(step, shot) for entries in scenes for step, shot in zip(kit.steps, entries.mine, strict=False)]
-    return list(dict.fromkeys(f"{step.id}: {shot.note}" for step, shot in pairs if shot.pixels is None))
+    return list(
+        dict.fromkeys(f"{step.id}: {shot.note}" for step, shot in pairs if shot is not None and shot.pixels is None)
+    )
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
@@ -76,12 +92,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if out.is_file():
         raise UsageError(f"--out {out}: is a file; expected a folder")
     usable_folder(out)
-    scenes = gallery_scenes(project, arguments.scene)
+    scenes = gallery_scenes(project, arguments.scene, read_steps(project))
+    options = PictureOptions(arguments.size or "", arguments.samples)
     with console.status("starting") as status, ExitStack() as stack:
         say = progress(console, status)
         kit = build_kit(project, say)
         own = stack.enter_context(my_steps(kit, say)) if arguments.mine else None
-        entries = [_entry(kit, scene, arguments.size, own, say) for scene in scenes]
+        entries = [_entry(kit, scene, options, own, say) for scene in scenes]
         say("writing the page")
         page = gallery_page(kit.steps, entries).encode("utf-8", "replace")
     path = out / "index.html"

@@ -28,7 +28,7 @@ class Album:
 
 
 _SCRIPTS = ("gallery-walk", "gallery-work", "gallery-strip", "gallery")
-_TITLE = "From ray directions to glass"
+_TITLE, _TITLE_OF_PART_ONE = "From ray directions to light from everywhere", "From ray directions to glass"
 
 
 @dataclass(frozen=True)
@@ -36,13 +36,15 @@ class GalleryEntry:
     """A scene with all its pictures: after each step, and the work of those that save some."""
 
     scene: GalleryScene
-    reference: Sequence[Shot]
+    reference: Sequence[Shot | None]  # None where the scene does not show the step
     work_maps: Mapping[int, Sequence[WorkMap]]
-    mine: Sequence[Shot] = field(default_factory=list)  # empty where nobody asked for them
+    mine: Sequence[Shot | None] = field(default_factory=list)  # empty where nobody asked for them
     my_work_maps: Mapping[int, WorkMap] = field(default_factory=dict)
 
 
-def _shot(shot: Shot, album: Album) -> dict[str, object]:
+def _shot(shot: Shot | None, album: Album) -> dict[str, object] | None:
+    if shot is None:
+        return None
     return {"picture": None if shot.pixels is None else album.add(shot.pixels), "note": shot.note}
 
 
@@ -63,7 +65,7 @@ def _scene(entries: GalleryEntry, album: Album) -> dict[str, object]:
         step: [*before_and_after, *filter(None, [entries.my_work_maps.get(step)])]
         for step, before_and_after in entries.work_maps.items()
     }
-    pixels = next((shot.pixels for shot in entries.reference if shot.pixels is not None), None)
+    pixels = next((shot.pixels for shot in entries.reference if shot and shot.pixels is not None), None)
     return {
         "name": entries.scene.name,
         "title": entries.scene.title,
@@ -87,7 +89,9 @@ def gallery_page(steps: Sequence[Step], scenes: Sequence[GalleryEntry]) -> str:
     data = {"steps": shown, "scenes": entries, "pictures": album.sources}
     first = entries[0]["reference"]
     assert isinstance(first, list)
-    plain = [album.sources[shot["picture"]] for shot in (first[0], first[-1]) if shot["picture"] is not None]
+    pictures = [shot["picture"] for shot in first if shot is not None]
+    plain = [album.sources[picture] for picture in (pictures[0], pictures[-1]) if picture is not None]
     context = {"steps": shown, "scenes": entries, "mine": any(one.mine for one in scenes), "plain": plain}
     styles = (*COMPARE_STYLES, "gallery", "gallery-strip")
-    return render_page("gallery", _TITLE, context, (*COMPARE_SCRIPTS, *_SCRIPTS), styles, data)
+    title = _TITLE if any(step.part > 1 for step in steps) else _TITLE_OF_PART_ONE
+    return render_page("gallery", title, context, (*COMPARE_SCRIPTS, *_SCRIPTS), styles, data)

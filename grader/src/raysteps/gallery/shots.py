@@ -33,6 +33,10 @@ _SCENES = {
     "facing-mirrors": ("Facing mirrors", "Two mirrors that look at each other: a corridor without an end."),
     "mountain": ("Mountain", "A mountain made by chance, at a lake that mirrors it, behind four balls of glass."),
     "gears": ("Gears", "Meshing gears, each face a polygon of 144 corners, some of them of glass."),
+    "studio": ("Studio", "A vase, metal, glass and paint below a bulb, a lamp and a window: part two in one room."),
+    "cornell": ("Cornell box", "A red wall, a green one and one lamp: what white paper shows is what the walls send."),
+    "plates": ("Plates", "Lamps of four sizes in four plates from polished to rough: what is mirrored, and where."),
+    "still-life": ("Still life", "Gold, copper, steel, clear and frosted glass below two lamps, through a lens."),
 }
 
 
@@ -58,23 +62,48 @@ def about_scene(name: str, scene: Path) -> tuple[str, str]:
     return _SCENES.get(name) or (title, _first_sentence(scene))
 
 
-CHOSEN = ("showcase", "sphereflake", "facing-mirrors", "mountain", "gears")
+_PART_ONE = ("showcase", "sphereflake", "facing-mirrors", "mountain", "gears")
+_OF_PARTS = {1: _PART_ONE, 2: ("studio", "cornell", "plates", "still-life")}
+CHOSEN = (*_PART_ONE, *_OF_PARTS[2])  # in this order
 _FLAKE = 3  # generations: enough surfaces for the boxes to pay, few enough to be counted one by one
+
+# Before step 12 nothing is seen of lamps that have a size; and not every step is to be seen in each scene.
+_SHOWN = {"studio": (9, 15), "cornell": (12, 13), "plates": (14, 15), "still-life": (12, 15)}
+_LAST = 99
+_LAST_OF_NFF = 10  # of part two: surfaces and lamps of NFF are those of part one, and this step makes edges smooth
 
 
 @dataclass(frozen=True)
 class GalleryScene:
-    """One scene of the gallery."""
+    """One scene of the gallery, and the first and the last step after which it is shown."""
 
     name: str
     title: str
     words: str
     path: Path
+    first: int = 1
+    last: int = _LAST
+
+    def shows(self, step: Step) -> bool:
+        if self.path.suffix == ".nff" and step.part > 1:
+            return step.index == _LAST_OF_NFF
+        return self.first <= step.index <= self.last
+
+
+def usual_scenes(steps: Sequence[Step]) -> list[str]:
+    """Those that show these steps best."""
+    parts = {step.part for step in steps}
+    return [name for name in CHOSEN if any(name in _OF_PARTS.get(part, _PART_ONE) for part in parts)]
 
 
 def _committed(project: Project) -> dict[str, Path]:
-    folders = ("lessons", "generated")
-    return {path.stem: path for folder in folders for path in sorted((project.scenes / folder).glob("*.nff"))}
+    files = [
+        path
+        for folder in ("lessons", "generated")
+        for ending in ("nff", "pbrt")
+        for path in sorted((project.scenes / folder).glob(f"*.{ending}"))
+    ]
+    return {path.stem: path for path in files}
 
 
 def _find(project: Project, word: str) -> Path:
@@ -85,23 +114,31 @@ def _find(project: Project, word: str) -> Path:
         return known[word]
     path = Path(word)
     if not path.is_file():
-        raise UsageError(f"--scene {word}: is not there; expected an NFF file or one of {', '.join(sorted(known))}")
+        raise UsageError(f"--scene {word}: is not there; expected a scene's file or one of {', '.join(sorted(known))}")
     return path
 
 
-def gallery_scenes(project: Project, words: Sequence[str]) -> list[GalleryScene]:
+def gallery_scenes(project: Project, words: Sequence[str], steps: Sequence[Step]) -> list[GalleryScene]:
     """Those that were asked for, each once; those that show the steps best when none was."""
-    paths = {_find(project, word).resolve(): word for word in words or CHOSEN}
+    paths = {_find(project, word).resolve(): word for word in words or usual_scenes(steps)}
     shown = []
     for path, word in paths.items():
         name = word if word in CHOSEN else path.stem
-        shown.append(GalleryScene(name, *about_scene(name, path), path))
+        scene = GalleryScene(name, *about_scene(name, path), path, *_SHOWN.get(word, (1, _LAST)))
+        if not any(map(scene.shows, steps)):
+            raise UsageError(
+                f"--scene {word}: shows no step of this course; expected another choice of `parts` in course.toml, or "
+                f"one of {', '.join(usual_scenes(steps))}"
+            )
+        shown.append(scene)
     return shown
 
 
 # What a scene looks like after a step, and what it costs.
 
 _TREE = 6  # the step from which on pictures are made with a tree
+_SIZE, _SIZE_OF_PART_TWO = "800x600", "480x360"
+SAMPLES = 100
 _MAP_SIZE = "240x180"  # every surface for every ray takes its time
 
 
@@ -122,10 +159,21 @@ class WorkMap:
     work: Work
 
 
-def picture_args(step: Step, size: str) -> tuple[str, ...]:
+@dataclass(frozen=True)
+class PictureOptions:
+    """How the pictures are made. Without `size`, those of part two are smaller: each of them takes many samples."""
+
+    size: str = ""
+    samples: int = SAMPLES  # of each pixel, in scenes of part two
+
+
+def picture_args(step: Step, scene: GalleryScene, options: PictureOptions) -> tuple[str, ...]:
     """Of raytrace. Before there is a tree the reference's saves time; the picture is the same."""
+    noisy = scene.path.suffix == ".pbrt"
+    size = options.size or (_SIZE_OF_PART_TWO if noisy else _SIZE)
     early = ("--accel", "octree") if step.index < _TREE else ()
-    return ("--step", str(step.index), "--size", size, *early)
+    samples = ("--samples", str(options.samples)) if noisy and step.part > 1 else ()
+    return ("--step", str(step.index), "--size", size, *early, *samples)
 
 
 def map_args(step: int, accel: str) -> tuple[str, ...]:
@@ -146,6 +194,10 @@ TREES = (
     Tree(6, ("every surface", map_args(5, "none")), ("octree", map_args(6, "octree"))),
     Tree(9, ("octree", map_args(8, "octree")), ("bounding volumes", map_args(9, "bvh"))),
 )
+
+
+def _step_of(tree: Tree, scene: GalleryScene, kit: BuiltKit) -> Step | None:
+    return next((step for step in kit.steps if step.index == tree.step and scene.shows(step)), None)
 
 
 # The pictures of a student's own steps. What goes wrong in a step is a note, and the others go on.
@@ -207,14 +259,16 @@ class MySteps:
         stand_in = f"The reference stands in for {join_and(missing)}." if missing else ""
         return " ".join(filter(None, [self._notes[step.id], stand_in]))
 
-    def shot(self, step: Step, scene: GalleryScene, size: str) -> Shot:
-        """After one step."""
+    def shot(self, step: Step, scene: GalleryScene, options: PictureOptions) -> Shot | None:
+        """After one step, if the scene shows it."""
+        if not scene.shows(step):
+            return None
         if step.id not in self._binaries:
             return Shot(None, self._notes[step.id])
         program, problem = self._program(step)
         if program is None:
             return Shot(None, problem)
-        rendered = self._render(program, step, scene, picture_args(step, size))
+        rendered = self._render(program, step, scene, picture_args(step, scene, options))
         if rendered.pixels is None:
             return Shot(None, trouble(rendered)[1])
         return Shot(rendered.pixels, self._remarks(step))
@@ -223,7 +277,7 @@ class MySteps:
         """By step, of those that save work and can be run."""
         found = {}
         for tree in TREES:
-            step = next((step for step in self._kit.steps if step.index == tree.step), None)
+            step = _step_of(tree, scene, self._kit)
             if step is None or step.id not in self._binaries:
                 continue
             program, _ = self._program(step)
@@ -250,13 +304,18 @@ def _of_the_kit(kit: BuiltKit, scene: GalleryScene) -> bool:
     return scene.path.is_relative_to(kit.project.root)
 
 
-def reference_shots(kit: BuiltKit, scene: GalleryScene, size: str, say: ProgressCallback) -> list[Shot]:
-    """After every step."""
-    shots = []
+def reference_shots(
+    kit: BuiltKit, scene: GalleryScene, options: PictureOptions, say: ProgressCallback
+) -> list[Shot | None]:
+    """After every step, None where the scene does not show it."""
+    shots: list[Shot | None] = []
     for step in kit.steps:
+        if not scene.shows(step):
+            shots.append(None)
+            continue
         say(f"{scene.name}: step {step.number}")
         try:
-            shots.append(Shot(reference_picture(kit, scene.path, picture_args(step, size))))
+            shots.append(Shot(reference_picture(kit, scene.path, picture_args(step, scene, options))))
         except GraderFault as fault:
             if _of_the_kit(kit, scene):
                 raise
@@ -268,7 +327,7 @@ def reference_work_maps(kit: BuiltKit, scene: GalleryScene, say: ProgressCallbac
     """By step: before and after. A scene of the user's has none when it is too large to be traced without a tree."""
     work_maps = {}
     for tree in TREES:
-        if not any(step.index == tree.step for step in kit.steps):
+        if _step_of(tree, scene, kit) is None:
             continue
         say(f"{scene.name}: work in step {tree.step:02d}")
         try:

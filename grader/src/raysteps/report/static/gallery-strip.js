@@ -17,7 +17,8 @@ class GalleryStrip {
   picturesOf(scene, pictures) {
     for (const [index, card] of this.cards.entries()) {
       const image = card.querySelector("img");
-      const picture = scene.reference[index].picture;
+      const picture = scene.reference[index]?.picture ?? null;
+      card.classList.toggle("elsewhere", scene.reference[index] === null);
       image.hidden = picture === null;
       if (picture !== null) {
         image.src = pictures[picture];
@@ -31,7 +32,7 @@ class GalleryStrip {
     for (const [index, card] of this.cards.entries()) {
       const [left, right] = [index === walk.left && !own, index === walk.right];
       card.classList.toggle("chosen", left || right);
-      card.querySelector(".pick").hidden = own;
+      card.querySelector(".pick").hidden = own || !walk.shows(index);
       card.querySelector(".thumb").toggleAttribute("aria-current", right);
       card.querySelector("[data-side=left]").setAttribute("aria-pressed", String(left));
       card.querySelector("[data-side=right]").setAttribute("aria-pressed", String(right));

@@ -20,7 +20,7 @@ class Gallery {
     new ResizeObserver(() => this.fitWall()).observe(this.find("wall"));
     this.walk.read(location.hash);
     this.onClick("[data-scene]", (button) => {
-      this.walk.scene = Number(button.dataset.scene);
+      this.walk.enter(Number(button.dataset.scene));
     });
     this.onClick("[data-mode]", (button) => {
       this.walk.mode = button.dataset.mode;
@@ -55,7 +55,7 @@ class Gallery {
       n: () => this.walk.move(1),
       p: () => this.walk.move(-1),
       s: () => {
-        this.walk.scene = (this.walk.scene + 1) % this.walk.scenes;
+        this.walk.enter((this.walk.scene + 1) % this.walk.scenes);
       },
     };
     if (Object.hasOwn(acts, event.key)) {
@@ -141,7 +141,9 @@ class Gallery {
     this.find("right-name").textContent = right.name;
     this.find("plate-title").textContent = overview ? document.title : `${step.number} ${step.title}`;
     this.find("new").textContent = overview
-      ? "To the left, all that a first ray knows: where it goes. To the right, what the same ray brings back in the end."
+      ? this.walk.left === 0
+        ? "To the left, all that a first ray knows: where it goes. To the right, what the same ray brings back in the end."
+        : `To the left, the scene after step ${left.name}. To the right, after step ${right.name}.`
       : step.new;
     this.find("next").firstChild.textContent = overview ? "Begin the walk " : "Next ";
     this.find("same").hidden =
