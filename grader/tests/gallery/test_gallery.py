@@ -15,6 +15,7 @@ from rich.console import Console
 from raysteps.cli import gallery as command
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step, kit_steps
+from raysteps.course.mutants import reference_source
 from raysteps.course.project import Project
 from raysteps.gallery import shots as reference
 from raysteps.gallery.shots import (
@@ -27,7 +28,7 @@ from raysteps.gallery.shots import (
     usual_scenes,
 )
 from raysteps.images.render import reference_picture
-from raysteps.submission.load import load_submission
+from raysteps.submission.load import Submission, load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _SIZE = "24x16"
@@ -190,3 +191,22 @@ def test_a_walk_through_part_two_is_made_of_one_scene(
     pictures = [shot["picture"] for shot in studio["reference"]]
     assert len(set(pictures)) == len(pictures) == 6, "each step of part two adds something to the studio"
     assert [shot is not None for shot in plates["reference"]] == [False] * 4 + [True] * 2
+
+
+def test_ones_own_steps_of_part_two_are_shown_beside_the_references(
+    project: Project, kit: BuiltKit, tmp_path: Path
+) -> None:
+    both = replace(kit, steps=kit_steps(project))
+    chosen = [step for step in both.steps if step.number in ("11", "12")]
+    meshes, soft_light = chosen
+    dark = reference_source(project, soft_light).replace("return radiance * hit", "return 0.5F * radiance * hit")
+    sources = {meshes.id: reference_source(project, meshes).encode(), soft_light.id: dark.encode()}
+    submission = Submission("ann", sources, {})
+    (studio,) = gallery_scenes(project, ["studio"], both.steps)
+    mine = MySteps(both, submission, tmp_path / "build", lambda words: None)
+    assert mine.shot(both.steps[0], studio, _SMALL) is None, "it is shown from step 09 on"
+    shots = [mine.shot(step, studio, _SMALL) for step in chosen]
+    pictures = [shot.pixels for shot in shots if shot is not None and shot.pixels is not None]
+    right = [reference_picture(kit, studio.path, picture_args(step, studio, _SMALL)) for step in chosen]
+    assert np.array_equal(pictures[0], right[0])
+    assert pictures[1].mean() < right[1].mean() - 1
