@@ -26,6 +26,8 @@ COMMANDS = {
     "./raysteps figures --check": _FIGURES,
     "./raysteps finale": _FINALE,
     "./raysteps finale --name Ann Example": _FINALE,
+    "./raysteps finale scenes/lessons/still-life.pbrt --samples 16": _FINALE,
+    "./raysteps finale scenes/lessons/still-life.pbrt --samples 16 --denoise": _FINALE,
     "./raysteps inspect scenes/lessons/three-spheres.nff 40 16 --size 64x48 --step 4 --against reference": (
         "shows a mistake that somebody made; test_divergence makes such"
     ),

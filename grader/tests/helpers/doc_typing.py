@@ -60,10 +60,12 @@ class Typist:
     _course: dict[str, str] = field(default_factory=dict)
 
     def block(self, block: list[Typed]) -> dict[Typed, str]:
-        """What the commands of a block printed, each in the folder where those before it lead. A handout of part two is
-        read where a course has both parts."""
+        """What the commands of a block printed, each in the folder where those before it lead. A handout of part two,
+        and what takes its scenes, is read where a course has both parts."""
         here = self.workshop.kit.root
-        self._course = self._both_parts() if block[0].document.parent.name in self._later_parts() else {}
+        later = block[0].document.parent.name in self._later_parts()
+        scenes = any(word.endswith(".pbrt") for one in block for word in one.words)
+        self._course = self._both_parts() if later or scenes else {}
         found = {}
         for one in block:
             if one.words[0] == "cd":
