@@ -16,6 +16,7 @@ from raysteps.toolchain.kit_artifacts import ProgressCallback
 from tools import mistake_pages as handbook
 from tools import new_step
 from tools.calibration.calibrate import calibrate
+from tools.calibration.error_rates import ErrorOptions, errors
 from tools.grade_audit import IN_SANDBOX, check_truth
 from tools.lint import LANGUAGES, TIDY, lint_checks, reformat
 from tools.schemas import write_schemas
@@ -83,6 +84,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add.add_argument("--check", action="store_true", help="only tell which limits are out of date")
     add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
     add.add_argument("--marks", action="store_true", help="grade every correct solution in every setting instead")
+    add = commands.add_parser("errors", help="how often the judge of part two calls right code wrong, and finds a bias")
+    usual = ErrorOptions()
+    add.add_argument("--only", nargs="+", default=[], metavar="STEP", help="these steps only")
+    words = f"of right solutions, over all steps ({usual.grades})"
+    add.add_argument("--grades", type=int, default=usual.grades, metavar="N", help=words)
+    words = f"seeds with which biased references are graded, too ({usual.planted})"
+    add.add_argument("--planted", type=int, default=usual.planted, metavar="N", help=words)
+    add.add_argument("--seed", type=int, default=usual.seed, metavar="N", help=f"the first one ({usual.seed})")
+    words = "begin no further seed after so many"
+    add.add_argument("--minutes", type=float, default=usual.minutes, metavar="N", help=words)
+    add.add_argument("--docs", action="store_true", help="write the table of docs/judge.md")
     add = commands.add_parser(
         "check", help="grade stubs, references, known mistakes and alternatives, and judge the grades"
     )
@@ -137,6 +149,11 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             with console.status("starting") as status:
                 say = progress(console, status)
                 return calibrate(project, arguments.only, console, say, check=arguments.check, grades=arguments.marks)
+        case "errors":
+            numbers = (arguments.grades, arguments.planted, arguments.seed, arguments.minutes)
+            with console.status("starting") as status:
+                wished = ErrorOptions(*numbers, tuple(arguments.only), arguments.docs)
+                return errors(project, wished, console, progress(console, status))
         case _:
             with console.status("starting") as status:
                 say = progress(console, status)

@@ -210,9 +210,11 @@ class Remembered:
         return digest.digest()
 
 
+def plain_sandbox() -> Sandbox:
+    """Where every program runs again, whatever ran before."""
+    return Direct() if sys.platform == "linux" else LimitsOnly()
+
+
 def sandbox_of_the_kit(folder: Path, always: str) -> Remembered:
     """For what nobody else wrote."""
-    if sys.platform != "linux":
-        return Remembered(LimitsOnly(), folder, always)
-
-    return Remembered(Direct(), folder, always)
+    return Remembered(plain_sandbox(), folder, always)

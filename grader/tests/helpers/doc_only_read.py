@@ -21,6 +21,7 @@ COMMANDS = {
     "./raysteps dev check --pairs 40": _TRUTH,
     "./raysteps dev check --only 20": "builds a kit with one more step, which takes minutes; test_new_step does so",
     "./raysteps dev calibrate": "takes 15 minutes; test_calibration measures one picture from end to end",
+    "./raysteps dev errors": "takes minutes; test_error_rates grades with one seed",
     "./raysteps dev mistakes": "takes minutes; `test` does what --check does",
     "./raysteps figures": _FIGURES,
     "./raysteps figures --check": _FIGURES,
