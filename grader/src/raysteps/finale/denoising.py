@@ -5,12 +5,10 @@ import sys
 from importlib import import_module
 
 import numpy as np
-from numpy.typing import NDArray
 
 from raysteps.common.errors import UsageError
 from raysteps.images.compare import Pixels
-
-Light = NDArray[np.float64]
+from raysteps.images.noise import Light, as_picture
 
 _LIBRARY, _VERSION = "pyoidn", "2.5.1.0"  # Open Image Denoise 2.5.1, and Python's way to it
 
@@ -24,15 +22,8 @@ def refuse_without_denoiser() -> None:
         )
 
 
-def as_shown(light: Light) -> Pixels:
-    """By the curve of sRGB, as step 10 has it."""
-    kept = np.clip(light, 0.0, 1.0)
-    curved = np.where(kept <= 0.0031308, 12.92 * kept, 1.055 * kept ** (1 / 2.4) - 0.055)
-    return np.asarray(np.floor(curved * 255.0 + 0.5), dtype=np.uint8)
-
-
 def denoised(light: Light) -> Pixels:
     """Of the mean light of each pixel, before filter and curve: a filter would share the noise with the neighbours, and
     then it looks like something that is there."""
     library = import_module(_LIBRARY)
-    return as_shown(np.asarray(library.denoise(np.ascontiguousarray(light, dtype=np.float32), hdr=True), np.float64))
+    return as_picture(np.asarray(library.denoise(np.ascontiguousarray(light, dtype=np.float32), hdr=True), np.float64))
