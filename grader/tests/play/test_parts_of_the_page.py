@@ -70,6 +70,8 @@ def test_a_handout_leads_to_other_steps_and_to_its_figures(project: Project, ste
     )
     assert '<a href="#02">next</a> x <math' in text
     assert "<code>$b$</code>" in text
+    text = handout("$$a^2$$", numbers, shown, lambda name: None)
+    assert '<p class="play-formula" tabindex="0"><math' in text, "a keyboard can scroll what is wider than a phone"
     text = handout("`a.hpp` `b.cpp` `./raysteps` `c::d`", numbers, shown, {"a.hpp": "texts/a.hpp.txt"}.get)
     assert '<a href="texts/a.hpp.txt" class="play-text"><code>a.hpp</code></a> <code>b.cpp</code> <code>./' in text
     assert "are typed" not in text

@@ -107,7 +107,8 @@ def handout(
         return found[0] if place is None else f'<a href="{place}" class="play-text">{found[0]}</a>'
 
     html = _SOURCE.sub(linked, html)
-    return re.sub("\ue000([0-9]+)\ue001", lambda found: made[int(found[1])], html)
+    html = re.sub("\ue000([0-9]+)\ue001", lambda found: made[int(found[1])], html)
+    return re.sub(r'<p>(<math [^>]*display="block")', r'<p class="play-formula" tabindex="0">\1', html)
 
 
 # Files in one.
@@ -375,6 +376,7 @@ _KINDS = {
     ".png": "image/png",
     ".svg": "image/svg+xml",
     ".nff": "text/plain; charset=utf-8",
+    ".pbrt": "text/plain; charset=utf-8",
     ".txt": "text/plain; charset=utf-8",
     ".gz": "application/octet-stream",
 }
