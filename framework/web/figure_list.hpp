@@ -40,4 +40,8 @@ void tone_figure(Numbers numbers, JsonWriter& json);
 void glass_figure(Numbers numbers, JsonWriter& json);
 void cuts_figure(Numbers numbers, JsonWriter& json);
 
+// Steps 10 to 12.
+void samples_figure(Numbers numbers, JsonWriter& json);
+void filter_figure(Numbers numbers, JsonWriter& json);
+
 }  // namespace raysteps

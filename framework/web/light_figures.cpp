@@ -3,12 +3,11 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <memory>
-#include <string>
 
 #include "core/scene.hpp"
 #include "figure_list.hpp"
+#include "figure_pixels.hpp"
 #include "render/accelerators.hpp"
-#include "render/encode.hpp"
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/02-intersection/intersection.hpp"
 #include "steps/03-phong-shading/phong_shading.hpp"
@@ -16,23 +15,6 @@
 
 namespace raysteps {
 namespace {
-
-/// Six hexadecimal digits for each pixel, row by row.
-class Pixels {
-public:
-    void add(const Color& color) {
-        const Rgb8 pixel = cut_off(color);
-        for (const std::uint8_t channel : {pixel.r, pixel.g, pixel.b}) {
-            text_ += "0123456789abcdef"[channel / 16];
-            text_ += "0123456789abcdef"[channel % 16];
-        }
-    }
-
-    [[nodiscard]] const std::string& text() const { return text_; }
-
-private:
-    std::string text_;
-};
 
 /// The surface of the worked example of step 03, at the origin.
 HitRecord level_hit(const glm::vec3& eye, const Fill& fill) {
@@ -49,7 +31,7 @@ constexpr int k_ball_pixels = 48;  // from side to side
 /// A ball of this fill, seen from straight above.
 void ball(const Fill& fill, const Light& light, JsonWriter& json) {
     const Sphere sphere({0.0F, 0.0F, 0.0F}, 1.0F, fill);
-    Pixels pixels;
+    FigurePixels pixels;
     for (int row = 0; row < k_ball_pixels; ++row) {
         for (int column = 0; column < k_ball_pixels; ++column) {
             const float x = (2.0F * static_cast<float>(column) + 1.0F) / k_ball_pixels - 1.0F;
@@ -94,7 +76,7 @@ void threshold_picture(float threshold, JsonWriter& json) {
     const Light& light = scene.lights.front();
     const std::unique_ptr<Accelerator> query = linear_accelerator(scene.surfaces());
     const ViewFrame frame = view_frame(scene.camera);
-    Pixels pixels;
+    FigurePixels pixels;
     std::uint64_t darker = 0;
     std::uint64_t brighter = 0;
     for (int y = 0; y < scene.camera.height; ++y) {

@@ -8,8 +8,10 @@ import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
 from play_pages import save, says, with_packages
 
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
+from raysteps.course.settings import PLACE
+from raysteps.course.stubs import without_markers
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer
 
@@ -22,8 +24,23 @@ Opened: TypeAlias = "Callable[..., Page]"
 
 
 @pytest.fixture(scope="module")
-def server(project: Project) -> Iterator[PlayServer]:
-    with with_packages():
+def steps(project: Project) -> list[Step]:
+    """Of both parts."""
+    return kit_steps(project)
+
+
+@pytest.fixture(scope="module")
+def solved(project: Project, steps: list[Step]) -> dict[str, str]:
+    return {step.id: without_markers((project.solutions / step.path).read_text("utf-8")) for step in steps}
+
+
+@pytest.fixture(scope="module")
+def server(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Iterator[PlayServer]:
+    """The page of a course with both parts."""
+    course = tmp_path_factory.mktemp("course") / "course.toml"
+    course.write_text("parts = [1, 2]\n", encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patch, with_packages():
+        patch.setenv(PLACE, str(course))
         found = PlayServer(PlayPage(project, registry_of(None)).make())
     yield found
     found.close()
@@ -36,7 +53,7 @@ def opened(watched: Watched, server: PlayServer) -> Opened:
     def at(number: str, width: int = 1440, *, touch: bool = False) -> "Page":
         watched.allowed.append(server.address)
         page = watched.open(f"{server.address}#{number}", width=width, touch=touch)
-        says(page.locator("#play-status"), r"0 of \d+ tests pass")
+        says(page.locator("#play-status"), r"\d+ of \d+ tests pass")
         return page
 
     return at
@@ -345,5 +362,34 @@ def test_each_cut_has_its_cost(opened: Opened, project: Project, steps: list[Ste
     says(words, r"The area of the whole: 38\. ")
     _assert_fast(page, "cuts")
     assert_no_sideways_scrolling(page)
+    assert_accessible(page)
+    _assert_accessible_in_the_dark(page)
+
+
+def test_stratified_points_leave_less_to_chance(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("10")
+    words, figure = _words(page, "samples"), _figure(page, "samples")
+    says(words, "It waits for stratified_samples.*: not written yet")
+    says(_words(page, "filter"), "It waits for tent_filter.*: not written yet")
+    save(page, solved["10-sampling"])
+    assert _states(project, steps[9], "Two, always.")
+    says(words, r"4 points, stratified: 2 see white, and the pixel shows 0\.5\. .* off by 0 \(")
+    kind = figure.get_by_role("slider", name="Points", exact=True)
+    kind.press("ArrowLeft")
+    says(words, r"4 points, anywhere: .* off by 0\.[23]\d* \(")
+    kind.press("End")
+    figure.get_by_role("slider", name="Points along each side").press("End")
+    says(words, r"64 points, Halton's: 32 see white, .* off by 0 \(")
+    _drag(page, figure.get_by_role("slider", name="Edge, above").first, (2000, 0))
+    says(words, r"Of the pixel 0\.75 is white")
+    weighed = _words(page, "filter")
+    assert _states(project, steps[9], "(0.375 · 0.9 + 0.75 · 0.3) / (0.375 + 0.75) = 0.5625 / 1.125 = 0.5")
+    says(weighed, r"Weights 0\.375 and 0\.75\. The mean is 0\.5, and the screen is sent 0\.735")
+    _figure(page, "filter").get_by_role("slider", name="Filter").press("ArrowRight")
+    _figure(page, "filter").get_by_role("slider", name="Second sample").last.fill("0")
+    says(weighed, r"and 0\.8889\. ")  # Mitchell's, in the middle
+    _assert_fast(page, "filter")
     assert_accessible(page)
     _assert_accessible_in_the_dark(page)

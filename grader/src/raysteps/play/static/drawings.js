@@ -7,6 +7,7 @@ import { GLASS } from "./drawing-glass.js";
 import { PHONG, SHADOW } from "./drawing-light.js";
 import { MIRRORS } from "./drawing-mirrors.js";
 import { SPHERE, TRIANGLE } from "./drawing-rays.js";
+import { FILTER, SAMPLES } from "./drawing-samples.js";
 import { TONE } from "./drawing-tone.js";
 import { CUTS, OCTREE } from "./drawing-trees.js";
 
@@ -20,6 +21,7 @@ const OF_STEPS = {
   "07": [TONE],
   "08": [GLASS],
   "09": [CUTS],
+  10: [SAMPLES, FILTER],
 };
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];
