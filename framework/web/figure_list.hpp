@@ -43,5 +43,7 @@ void cuts_figure(Numbers numbers, JsonWriter& json);
 // Steps 10 to 12.
 void samples_figure(Numbers numbers, JsonWriter& json);
 void filter_figure(Numbers numbers, JsonWriter& json);
+void mesh_figure(Numbers numbers, JsonWriter& json);
+void level_figure(Numbers numbers, JsonWriter& json);
 
 }  // namespace raysteps

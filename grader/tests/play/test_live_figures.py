@@ -393,3 +393,31 @@ def test_stratified_points_leave_less_to_chance(
     _assert_fast(page, "filter")
     assert_accessible(page)
     _assert_accessible_in_the_dark(page)
+
+
+def test_a_point_of_a_mesh_is_lifted_and_a_pixel_has_its_level(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("11")
+    words, level = _words(page, "mesh"), _words(page, "level")
+    says(words, "It waits for barycentric.*: not written yet")
+    says(level, "It waits for build_pyramid.*: not written yet")
+    save(page, solved["11-meshes"])
+    weights = _states(project, steps[10], "(0, 0.5, 0.5)")
+    assert _states(project, steps[10], "(0.331, 0.331, 0.884)")
+    lifted = _states(project, steps[10], "(2.36, 2.36, 0.96)")
+    says(words, rf"Weights {weights}, normal \(0\.3313, 0\.3313, 0\.8835\)\. Lifted: {lifted}")
+    point = _figure(page, "mesh").get_by_role("slider", name="Point", exact=True)
+    _drag(page, point, (-2000, 2000))
+    says(words, r"Weights \(1, 0, 0\), normal \(0, 0, 1\)\. Lifted: \(0, 0, 0\)")
+    _drag(page, point, (2000, -100))  # no farther than to the long edge
+    says(words, r"Weights \(0, ")
+    assert _states(project, steps[10], "It covers 16 · 0.25 = 4 texels.")
+    says(level, r"The pixel covers 4 texels: level 2 of 0 to 6\. The picture takes your level")
+    _drag(page, _figure(page, "level").get_by_role("slider", name="Distance of the hit").first, (2000, 0))
+    says(level, r"covers 20 texels: level 4\.3219 ")
+    _figure(page, "level").get_by_role("slider", name="The picture takes the level").press("Home")
+    says(level, r"a level 6 finer than yours: the squares break up into noise")
+    _assert_fast(page, "level")
+    assert_accessible(page)
+    _assert_accessible_in_the_dark(page)

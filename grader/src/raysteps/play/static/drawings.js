@@ -5,6 +5,7 @@
 import { CAMERA } from "./drawing-camera.js";
 import { GLASS } from "./drawing-glass.js";
 import { PHONG, SHADOW } from "./drawing-light.js";
+import { LEVEL, MESH } from "./drawing-mesh.js";
 import { MIRRORS } from "./drawing-mirrors.js";
 import { SPHERE, TRIANGLE } from "./drawing-rays.js";
 import { FILTER, SAMPLES } from "./drawing-samples.js";
@@ -22,6 +23,7 @@ const OF_STEPS = {
   "08": [GLASS],
   "09": [CUTS],
   10: [SAMPLES, FILTER],
+  11: [MESH, LEVEL],
 };
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];
