@@ -45,5 +45,7 @@ void samples_figure(Numbers numbers, JsonWriter& json);
 void filter_figure(Numbers numbers, JsonWriter& json);
 void mesh_figure(Numbers numbers, JsonWriter& json);
 void level_figure(Numbers numbers, JsonWriter& json);
+void lamp_figure(Numbers numbers, JsonWriter& json);
+void lens_figure(Numbers numbers, JsonWriter& json);
 
 }  // namespace raysteps

@@ -421,3 +421,34 @@ def test_a_point_of_a_mesh_is_lifted_and_a_pixel_has_its_level(
     _assert_fast(page, "level")
     assert_accessible(page)
     _assert_accessible_in_the_dark(page)
+
+
+def test_a_lamp_is_sampled_from_a_place_that_is_dragged(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("12")
+    words, figure = _words(page, "lamp"), _figure(page, "lamp")
+    says(words, "It waits for solid_angle_pdf.*: not written yet")
+    says(_words(page, "lens"), "It waits for lens_ray: not written yet")
+    save(page, solved["12-soft-light"])
+    assert _states(project, steps[11], "1.273 · 25 / 0.8 = 39.79")
+    assert _states(project, steps[11], "20 · 1 / π · 0.8 / 39.79 = 0.128")
+    says(words, r"the density 39\.7887 by solid angle; .* middle brings 0\.128\. .* 100 .* 0\.12\d*\. [45]\d of")
+    figure.get_by_role("slider", name="Turned by").fill("180")
+    says(words, r"density 0 by solid angle; .* brings 0\. .* is 0, with 100 that bring nothing")
+    figure.get_by_role("slider", name="Lamp", exact=True).last.press("End")
+    says(words, r"Each point that is seen has the density 31\.751\d ")  # 1 / (2 pi (1 - cos)), sin = 0.1
+    _drag(page, figure.get_by_role("slider", name="Lit place"), (2000, 0))
+    says(words, r"density 25\.385 ")
+    lens = _words(page, "lens")
+    direction = _states(project, steps[11], "(0.6, 0, -0.8)")
+    sharp = _states(project, steps[11], "(3, 0, -4)")
+    says(lens, rf"direction {direction}\. .* all rays meet at {sharp}\. On the wall, 7 away, .*: blurred")
+    _figure(page, "lens").get_by_role("slider", name="Wall at").fill("4")
+    says(lens, r"On the wall, 4 away, they are up to 0 from \(3, 0, -4\): sharp")
+    _assert_fast(page, "lamp")
+    assert_accessible(page)
+    _assert_accessible_in_the_dark(page)
+    save(page, solved["12-soft-light"].replace("std::sqrt(u.x)", "u.x"))  # too many in the middle
+    _figure(page, "lamp").get_by_role("button", name="Back to the start").click()
+    says(words, r"density 39\.7887 .* [23]\d of them lie in the outer half of it, evenly spread it is 50")

@@ -4,6 +4,7 @@
 
 import { CAMERA } from "./drawing-camera.js";
 import { GLASS } from "./drawing-glass.js";
+import { LAMP, LENS } from "./drawing-lamp.js";
 import { PHONG, SHADOW } from "./drawing-light.js";
 import { LEVEL, MESH } from "./drawing-mesh.js";
 import { MIRRORS } from "./drawing-mirrors.js";
@@ -24,6 +25,7 @@ const OF_STEPS = {
   "09": [CUTS],
   10: [SAMPLES, FILTER],
   11: [MESH, LEVEL],
+  12: [LAMP, LENS],
 };
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];

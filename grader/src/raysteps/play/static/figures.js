@@ -89,6 +89,15 @@ class View {
     }
   }
 
+  /** Many dots, which are one thing to draw. */
+  dots(points, look, radius) {
+    const places = points.map((point) => this.at(point)).filter((place) => place.every(Number.isFinite));
+    this.#add("path", `${look} live-dots`, {
+      d: places.map((place) => `M${place}h0`).join(""),
+      "stroke-width": 2 * radius,
+    });
+  }
+
   circle(center, radius, look) {
     const [cx, cy] = this.at(center);
     this.#add("circle", look, { cx, cy, r: radius * this.#scale[0] });
@@ -98,12 +107,16 @@ class View {
   area(corner, other) {
     const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
     const [width, height] = [Math.abs(x1 - x), Math.abs(y1 - y)];
-    this.#add("rect", "area", { x: Math.min(x, x1), y: Math.min(y, y1), width, height });
+    if (Number.isFinite(width + height)) {
+      this.#add("rect", "area", { x: Math.min(x, x1), y: Math.min(y, y1), width, height });
+    }
   }
 
   words(point, text) {
     const [x, y] = this.at(point);
-    this.#scene.append(svg("text", { class: "live-words", x, y }, text));
+    if (Number.isFinite(x + y)) {
+      this.#scene.append(svg("text", { class: "live-words", x, y }, text));
+    }
   }
 
   /** A picture between two corners, six hexadecimal digits a pixel, so many in a row. */
