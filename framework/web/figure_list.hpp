@@ -48,4 +48,8 @@ void level_figure(Numbers numbers, JsonWriter& json);
 void lamp_figure(Numbers numbers, JsonWriter& json);
 void lens_figure(Numbers numbers, JsonWriter& json);
 
+// Steps 13 to 15.
+void cosine_figure(Numbers numbers, JsonWriter& json);
+void roulette_figure(Numbers numbers, JsonWriter& json);
+
 }  // namespace raysteps

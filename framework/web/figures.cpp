@@ -24,7 +24,7 @@ constexpr std::array k_figures{
     Figure{"octree", octree_figure}, Figure{"tone", tone_figure},       Figure{"glass", glass_figure},
     Figure{"cuts", cuts_figure},     Figure{"samples", samples_figure}, Figure{"filter", filter_figure},
     Figure{"mesh", mesh_figure},     Figure{"level", level_figure},     Figure{"lamp", lamp_figure},
-    Figure{"lens", lens_figure},
+    Figure{"lens", lens_figure},     Figure{"cosine", cosine_figure},   Figure{"roulette", roulette_figure},
 };
 
 void answer(std::span<char*> words, JsonWriter& json) {

@@ -452,3 +452,32 @@ def test_a_lamp_is_sampled_from_a_place_that_is_dragged(
     save(page, solved["12-soft-light"].replace("std::sqrt(u.x)", "u.x"))  # too many in the middle
     _figure(page, "lamp").get_by_role("button", name="Back to the start").click()
     says(words, r"density 39\.7887 .* [23]\d of them lie in the outer half of it, evenly spread it is 50")
+
+
+def test_directions_follow_the_normal_and_paths_end_by_chance(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("13")
+    words, figure = _words(page, "cosine"), _figure(page, "cosine")
+    says(words, "It waits for cosine_direction.*: not written yet")
+    says(_words(page, "roulette"), "It waits for path_light.*: not written yet")
+    save(page, solved["13-path-tracing"])
+    assert _states(project, steps[12], "0.8 / pi = 0.2546")
+    weight = _states(project, steps[12], "(0.72, 0.4, 0.08)")
+    says(words, rf"u = \(0\.36, 0\.25\) .* rises by 0\.8 along the normal\. .* 0\.2546, and the weight {weight}\.")
+    says(words, r"Of all 200, (9|10)\d lie in the outer half of the circle, evenly spread it is 100\.")
+    _drag(page, figure.get_by_role("slider", name="Tip of the normal"), (0, 2000))
+    says(figure.locator("output").first, "180°")
+    says(words, r"rises by 0\.8 along the normal")
+    figure.get_by_role("slider", name="u", exact=True).press("ArrowDown")
+    says(words, r"u = \(0\.36, 0\.2\) ")
+    paths = _words(page, "roulette")
+    says(paths, r"0\.8 goes on with a probability of 0\.8\. The mean .* is [45]\.\d+, .* average is 5\. They meet 4 ")
+    share = _figure(page, "roulette").get_by_role("slider", name="Share that is sent on").last
+    share.press("End")
+    says(paths, r"0\.95 goes on with a probability of 0\.95\. .* right on average is 20\. They meet 4 ")
+    share.press("Home")
+    says(paths, r"The mean of 500 paths is 1, right on average is 1\.")
+    _assert_fast(page, "cosine")
+    assert_accessible(page)
+    _assert_accessible_in_the_dark(page)

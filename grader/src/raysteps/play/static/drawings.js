@@ -8,6 +8,7 @@ import { LAMP, LENS } from "./drawing-lamp.js";
 import { PHONG, SHADOW } from "./drawing-light.js";
 import { LEVEL, MESH } from "./drawing-mesh.js";
 import { MIRRORS } from "./drawing-mirrors.js";
+import { COSINE, ROULETTE } from "./drawing-paths.js";
 import { SPHERE, TRIANGLE } from "./drawing-rays.js";
 import { FILTER, SAMPLES } from "./drawing-samples.js";
 import { TONE } from "./drawing-tone.js";
@@ -26,6 +27,7 @@ const OF_STEPS = {
   10: [SAMPLES, FILTER],
   11: [MESH, LEVEL],
   12: [LAMP, LENS],
+  13: [COSINE, ROULETTE],
 };
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];
