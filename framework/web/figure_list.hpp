@@ -51,5 +51,7 @@ void lens_figure(Numbers numbers, JsonWriter& json);
 // Steps 13 to 15.
 void cosine_figure(Numbers numbers, JsonWriter& json);
 void roulette_figure(Numbers numbers, JsonWriter& json);
+void fresnel_figure(Numbers numbers, JsonWriter& json);
+void metal_figure(Numbers numbers, JsonWriter& json);
 
 }  // namespace raysteps

@@ -19,12 +19,13 @@ struct Figure {
 };
 
 constexpr std::array k_figures{
-    Figure{"camera", camera_figure}, Figure{"sphere", sphere_figure},   Figure{"triangle", triangle_figure},
-    Figure{"phong", phong_figure},   Figure{"shadow", shadow_figure},   Figure{"mirrors", mirrors_figure},
-    Figure{"octree", octree_figure}, Figure{"tone", tone_figure},       Figure{"glass", glass_figure},
-    Figure{"cuts", cuts_figure},     Figure{"samples", samples_figure}, Figure{"filter", filter_figure},
-    Figure{"mesh", mesh_figure},     Figure{"level", level_figure},     Figure{"lamp", lamp_figure},
-    Figure{"lens", lens_figure},     Figure{"cosine", cosine_figure},   Figure{"roulette", roulette_figure},
+    Figure{"camera", camera_figure},   Figure{"sphere", sphere_figure},   Figure{"triangle", triangle_figure},
+    Figure{"phong", phong_figure},     Figure{"shadow", shadow_figure},   Figure{"mirrors", mirrors_figure},
+    Figure{"octree", octree_figure},   Figure{"tone", tone_figure},       Figure{"glass", glass_figure},
+    Figure{"cuts", cuts_figure},       Figure{"samples", samples_figure}, Figure{"filter", filter_figure},
+    Figure{"mesh", mesh_figure},       Figure{"level", level_figure},     Figure{"lamp", lamp_figure},
+    Figure{"lens", lens_figure},       Figure{"cosine", cosine_figure},   Figure{"roulette", roulette_figure},
+    Figure{"fresnel", fresnel_figure}, Figure{"metal", metal_figure},
 };
 
 void answer(std::span<char*> words, JsonWriter& json) {

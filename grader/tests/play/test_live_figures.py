@@ -481,3 +481,34 @@ def test_directions_follow_the_normal_and_paths_end_by_chance(
     _assert_fast(page, "cosine")
     assert_accessible(page)
     _assert_accessible_in_the_dark(page)
+
+
+def test_rough_metal_answers_for_an_eye_that_is_dragged(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("14")
+    fresnel, words = _words(page, "fresnel"), _words(page, "metal")
+    says(fresnel, "It waits for fresnel_dielectric and fresnel_schlick: not written yet")
+    says(words, "It waits for ggx_distribution.*: not written yet")
+    save(page, solved["14-materials"])
+    assert _states(project, steps[13], "Glass mirrors 4 % straight on and all along its surface.")
+    says(fresnel, r"At 0° glass mirrors 0\.04 of .* outside, and 0\.04 of .* inside\. Metal mirrors 0\.6\.")
+    angle = _figure(page, "fresnel").get_by_role("slider", name="Angle", exact=True)
+    for _ in range(9):
+        angle.press("ArrowRight")
+    says(fresnel, r"At 45° glass mirrors 0\.0502 of .* and 1 of that from inside: none gets out\.")
+    _drag(page, angle, (2000, 0))
+    says(fresnel, r"At 90° glass mirrors 1 of .* Metal mirrors 1\.")
+    assert _states(project, steps[13], "D = 0.25 / (pi · 0.0625) = 1.2732")
+    assert _states(project, steps[13], "f = 1.2732 / (4 · 1.0680 · 0.8 · 0.8) = 0.4657")
+    assert _states(project, steps[13], "1.2314 / (4 · 0.8) = 0.3848")
+    says(words, r"is \(0, 0, 1\): D = 1\.2732, its density 1\.2314\. Λ .* is 0\.034\. f = 0\.4657, .* 0\.3848\.")
+    figure = _figure(page, "metal")
+    figure.get_by_role("slider", name="Roughness alpha").press("Home")
+    says(words, r"D = 127\.\d+, .* (All|149) of 150 paths go on")
+    figure.get_by_role("slider", name="Roughness alpha").press("End")
+    figure.get_by_role("slider", name="Eye", exact=True).press("ArrowLeft")
+    says(words, r"D = 0\.3183, .* 89 of 150 paths go on, the others lead below")
+    _assert_fast(page, "metal")
+    assert_accessible(page)
+    _assert_accessible_in_the_dark(page)

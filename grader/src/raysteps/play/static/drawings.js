@@ -7,6 +7,7 @@ import { GLASS } from "./drawing-glass.js";
 import { LAMP, LENS } from "./drawing-lamp.js";
 import { PHONG, SHADOW } from "./drawing-light.js";
 import { LEVEL, MESH } from "./drawing-mesh.js";
+import { FRESNEL, METAL } from "./drawing-metal.js";
 import { MIRRORS } from "./drawing-mirrors.js";
 import { COSINE, ROULETTE } from "./drawing-paths.js";
 import { SPHERE, TRIANGLE } from "./drawing-rays.js";
@@ -28,6 +29,7 @@ const OF_STEPS = {
   11: [MESH, LEVEL],
   12: [LAMP, LENS],
   13: [COSINE, ROULETTE],
+  14: [FRESNEL, METAL],
 };
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];
