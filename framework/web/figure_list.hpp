@@ -53,5 +53,7 @@ void cosine_figure(Numbers numbers, JsonWriter& json);
 void roulette_figure(Numbers numbers, JsonWriter& json);
 void fresnel_figure(Numbers numbers, JsonWriter& json);
 void metal_figure(Numbers numbers, JsonWriter& json);
+void weights_figure(Numbers numbers, JsonWriter& json);
+void ways_figure(Numbers numbers, JsonWriter& json);
 
 }  // namespace raysteps

@@ -25,7 +25,8 @@ constexpr std::array k_figures{
     Figure{"cuts", cuts_figure},       Figure{"samples", samples_figure}, Figure{"filter", filter_figure},
     Figure{"mesh", mesh_figure},       Figure{"level", level_figure},     Figure{"lamp", lamp_figure},
     Figure{"lens", lens_figure},       Figure{"cosine", cosine_figure},   Figure{"roulette", roulette_figure},
-    Figure{"fresnel", fresnel_figure}, Figure{"metal", metal_figure},
+    Figure{"fresnel", fresnel_figure}, Figure{"metal", metal_figure},     Figure{"weights", weights_figure},
+    Figure{"ways", ways_figure},
 };
 
 void answer(std::span<char*> words, JsonWriter& json) {

@@ -512,3 +512,26 @@ def test_rough_metal_answers_for_an_eye_that_is_dragged(
     _assert_fast(page, "metal")
     assert_accessible(page)
     _assert_accessible_in_the_dark(page)
+
+
+def test_two_ways_to_a_lamp_share_its_light(
+    opened: Opened, project: Project, steps: list[Step], solved: dict[str, str]
+) -> None:
+    page = opened("15")
+    words, ways = _words(page, "weights"), _words(page, "ways")
+    says(words, "It waits for balance_heuristic and power_heuristic: not written yet")
+    says(ways, "It waits for sphere_pdf.*: not written yet")
+    save(page, solved["15-mis"])
+    says(page.locator("#play-status"), "Step 15 is right")  # its picture, too, of a scene in pbrt's format
+    assert _states(project, steps[14], "3² / (3² + 1²) = 0.9")
+    says(words, r"density 3, by the other way with 1: the weight is 0\.75 by the balance heuristic, 0\.9 by the power")
+    own = _figure(page, "weights").get_by_role("slider", name="Its own density").first
+    _drag(page, own, (-2000, 0))
+    says(words, r"density 0, .* the weight is 0 by the balance heuristic, 0 by the power")
+    assert _states(project, steps[14], "1 / 1.2566 = 0.7958")
+    says(ways, r"A sample of the lamp has the density 0\.7958\. ")
+    _figure(page, "ways").get_by_role("slider", name="Radius of the lamp").press("Home")
+    says(ways, r"has the density 127\.\d+\. .* counts 0\.99\d*, and a path that meets it 0\.\d+\.$|counts 1, ")
+    _assert_fast(page, "ways")
+    assert_accessible(page)
+    _assert_accessible_in_the_dark(page)

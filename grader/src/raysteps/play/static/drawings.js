@@ -14,6 +14,7 @@ import { SPHERE, TRIANGLE } from "./drawing-rays.js";
 import { FILTER, SAMPLES } from "./drawing-samples.js";
 import { TONE } from "./drawing-tone.js";
 import { CUTS, OCTREE } from "./drawing-trees.js";
+import { WAYS, WEIGHTS } from "./drawing-weights.js";
 
 const OF_STEPS = {
   "01": [CAMERA],
@@ -30,6 +31,7 @@ const OF_STEPS = {
   12: [LAMP, LENS],
   13: [COSINE, ROULETTE],
   14: [FRESNEL, METAL],
+  15: [WEIGHTS, WAYS],
 };
 
 export const drawingsOf = (number) => OF_STEPS[number] ?? [];
