@@ -6,6 +6,7 @@
 
 #include "core/random_stream.hpp"
 #include "figure_list.hpp"
+#include "figure_numbers.hpp"
 #include "steps/12-soft-light/soft_light.hpp"
 
 namespace raysteps {
@@ -56,14 +57,14 @@ struct PlacedLamp {
     }
 
     /// Where a point appears: of a flat lamp face-on, of a sphere from where it is seen; the rim is 1 from the middle.
-    void write_seen(const glm::vec3& point, const glm::vec3& from, JsonWriter& json) const {
-        const glm::vec3 towards = glm::normalize(from - center);
-        const glm::vec3 across = kind == Lamp::sphere ? glm::vec3(towards.y, -towards.x, 0.0F) : side;
-        glm::vec3 off = (point - center) / radius;
-        if (kind == Lamp::sphere) {  // by its direction: that is what is spread evenly
-            off = glm::normalize(point - from) * glm::distance(from, center) / radius;
+    [[nodiscard]] glm::vec2 seen(const glm::vec3& point, const glm::vec3& from) const {
+        if (kind != Lamp::sphere) {
+            const glm::vec3 off = (point - center) / radius;
+            return {glm::dot(off, side), off.z};
         }
-        json.begin_array().number(glm::dot(off, across)).number(off.z).end_array();
+        const glm::vec3 towards = glm::normalize(from - center);  // by its direction: that is what is spread evenly
+        const glm::vec3 off = glm::normalize(point - from) * glm::distance(from, center) / radius;
+        return {glm::dot(off, glm::vec3(towards.y, -towards.x, 0.0F)), off.z};
     }
 };
 
@@ -99,9 +100,9 @@ void lamp_figure(Numbers numbers, JsonWriter& json) {
     for (int sample = 0; sample < k_samples; ++sample) {
         const LightSample found = sample_light(lamp.shape(), hit.position, random.next_2d());
         sum += sampled_light(hit, k_radiance, found).r;
-        json.begin_array().number(found.position.x).number(found.position.y).flag(found.pdf > 0.0F);
-        lamp.write_seen(found.position, hit.position, json);
-        json.end_array();
+        const glm::vec2 seen = lamp.seen(found.position, hit.position);
+        const float is_lit = found.pdf > 0.0F ? 1.0F : 0.0F;
+        write_drawn(json, {found.position.x, found.position.y, seen.x, seen.y, is_lit});
     }
     json.end_array();
     json.key("mean").number(sum / static_cast<float>(k_samples));
@@ -129,7 +130,7 @@ void lens_figure(Numbers numbers, JsonWriter& json) {
         const glm::vec3 on_wall = at_depth(ray, wall);
         miss = std::max(miss, glm::distance(at_depth(ray, camera.focal_distance), sharp));
         spread = std::max(spread, glm::distance(on_wall, at_depth(middle, wall)));
-        json.begin_array().vector(ray.origin).vector(on_wall).end_array();
+        write_drawn(json, {ray.origin.x, -ray.origin.z, on_wall.x, on_wall.y});
     }
     json.end_array();
     json.key("miss").number(miss).key("spread").number(spread).key("middle").vector(at_depth(middle, wall));

@@ -5,6 +5,7 @@
 
 #include "core/random_stream.hpp"
 #include "figure_list.hpp"
+#include "figure_numbers.hpp"
 #include "steps/14-materials/materials.hpp"
 
 namespace raysteps {
@@ -16,8 +17,8 @@ float cosine_of(float degrees) { return glm::clamp(glm::cos(glm::radians(degrees
 
 void write_shares(float degrees, float index, float metal, JsonWriter& json) {
     const float cosine = cosine_of(degrees);
-    json.begin_array().number(fresnel_dielectric(cosine, 1.0F / index)).number(fresnel_dielectric(cosine, index));
-    json.number(fresnel_schlick(Color(metal), cosine).r).end_array();
+    write_drawn(json, {fresnel_dielectric(cosine, 1.0F / index), fresnel_dielectric(cosine, index),
+                       fresnel_schlick(Color(metal), cosine).r});
 }
 
 glm::vec3 unit_or_up(const glm::vec3& vector) {
@@ -56,7 +57,9 @@ void metal_figure(Numbers numbers, JsonWriter& json) {
     json.key("lobe").begin_array();  // from -90 degrees, at the left, to the right
     for (int degree = -90; degree <= 90; ++degree) {
         const float angle = glm::radians(static_cast<float>(degree));
-        json.number(metal_pdf(view, {glm::sin(angle), 0.0F, glm::cos(angle)}, alpha));
+        const glm::vec3 towards{glm::sin(angle), 0.0F, glm::cos(angle)};
+        const float density = metal_pdf(view, towards, alpha);
+        write_drawn(json, {density * towards.x, density * towards.z, density});
     }
     json.end_array();
     HitRecord hit;
@@ -67,11 +70,13 @@ void metal_figure(Numbers numbers, JsonWriter& json) {
     json.key("normals").begin_array();  // each with where a path goes on, if it does
     for (int at = 0; at < k_normals; ++at) {
         const glm::vec2 u = random.next_2d();
-        json.begin_array().vector(sample_visible_normal(view, alpha, u));
+        const glm::vec3 normal = sample_visible_normal(view, alpha, u);
         if (const std::optional<ScatterSample> sample = scatter_metal(hit, u)) {
-            json.vector(sample->direction);
+            const glm::vec3& direction = sample->direction;
+            write_drawn(json, {normal.x, normal.y, direction.x, direction.y, direction.z});
+        } else {
+            write_drawn(json, {normal.x, normal.y});
         }
-        json.end_array();
     }
     json.end_array();
 }

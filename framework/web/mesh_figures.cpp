@@ -5,6 +5,7 @@
 #include <string>
 
 #include "figure_list.hpp"
+#include "figure_numbers.hpp"
 #include "figure_pixels.hpp"
 #include "steps/11-meshes/meshes.hpp"
 
@@ -87,7 +88,8 @@ void mesh_figure(Numbers numbers, JsonWriter& json) {
     json.key("cut").begin_array();  // from the first edge to the last one, through the point
     for (int at = 0; at < k_cut; ++at) {
         const glm::vec3 on_cut{(4.0F - y) * static_cast<float>(at) / static_cast<float>(k_cut - 1), y, 0.0F};
-        json.vector(curved_position(face, barycentric(face, on_cut), on_cut));
+        const glm::vec3 lifted = curved_position(face, barycentric(face, on_cut), on_cut);
+        write_drawn(json, {lifted.x, lifted.z});
     }
     json.end_array();
 }
@@ -110,8 +112,9 @@ void level_figure(Numbers numbers, JsonWriter& json) {
     json.end_array();
     json.key("curve").begin_array();  // from a distance of 0 to the farthest
     for (int at = 0; at <= static_cast<int>(k_farthest); ++at) {
-        const HitRecord hit = slanted(cosine, static_cast<float>(at));
-        json.number(mip_level(texels_across(face, glm::vec2(k_side), hit, k_pixel_angle), levels));
+        const auto far = static_cast<float>(at);
+        const float texels = texels_across(face, glm::vec2(k_side), slanted(cosine, far), k_pixel_angle);
+        write_drawn(json, {far, mip_level(texels, levels)});
     }
     json.end_array();
     json.key("picture").text(floor_picture(pyramid, shift));

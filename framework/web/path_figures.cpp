@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "figure_list.hpp"
+#include "figure_numbers.hpp"
 #include "steps/13-path-tracing/path_tracing.hpp"
 
 namespace raysteps {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int k_directions = 200;
 constexpr int k_paths = 500;
+constexpr int k_shown = 4;     // of so many paths the mean is drawn
 constexpr int k_longest = 24;  // of those that are counted one by one
 
 /// The surface of the worked example.
@@ -66,14 +68,17 @@ void cosine_figure(Numbers numbers, JsonWriter& json) {
     json.key("lobe").begin_array();  // the density of each direction in the plane, from straight up to the right
     for (int degree = 0; degree <= 360; degree += 3) {
         const float angle = glm::radians(static_cast<float>(degree));
-        json.number(cosine_pdf(normal, {glm::sin(angle), glm::cos(angle), 0.0F}));
+        const glm::vec3 towards{glm::sin(angle), glm::cos(angle), 0.0F};
+        const float density = cosine_pdf(normal, towards);
+        write_drawn(json, {density * towards.x, density * towards.y});
     }
     json.end_array();
     RandomStream random(1);
     json.key("others").begin_array();
     for (int at = 0; at < k_directions; ++at) {
         const glm::vec2 other = random.next_2d();
-        json.begin_array().number(other.x).number(other.y).vector(cosine_direction(normal, other)).end_array();
+        const glm::vec3 found = cosine_direction(normal, other);
+        write_drawn(json, {other.x, other.y, found.x, found.y, found.z});
     }
     json.end_array();
 }
@@ -89,7 +94,9 @@ void roulette_figure(Numbers numbers, JsonWriter& json) {
     for (int path = 1; path <= k_paths; ++path) {
         Furnace furnace(share);
         sum += path_light(furnace, {}, random).r;
-        json.number(sum / static_cast<float>(path));
+        if (path % k_shown == 0) {
+            write_drawn(json, {static_cast<float>(path), sum / static_cast<float>(path)});
+        }
         longest = std::max(longest, furnace.hits());
         ++lengths[static_cast<std::size_t>(std::clamp(furnace.hits(), 1, k_longest) - 1)];
     }

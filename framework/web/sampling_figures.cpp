@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "figure_list.hpp"
+#include "figure_numbers.hpp"
 #include "figure_pixels.hpp"
 #include "steps/10-sampling/sampling.hpp"
 
@@ -51,7 +52,7 @@ void samples_figure(Numbers numbers, JsonWriter& json) {
     const float share = 0.5F * (edge.bottom + edge.top);
     json.key("share").number(share).key("points").begin_array();
     for (const glm::vec2& point : points_of(kind, side, 0)) {
-        json.begin_array().number(point.x).number(point.y).flag(edge.is_white(point)).end_array();
+        write_drawn(json, {point.x, point.y, edge.is_white(point) ? 1.0F : 0.0F});
     }
     json.end_array();
     FigurePixels row;
@@ -87,7 +88,8 @@ void filter_figure(Numbers numbers, JsonWriter& json) {
     json.key("mean").number(mean).key("screen").number(linear_to_srgb(mean));
     json.key("curve").begin_array();  // from -2 to 2
     for (int at = 0; at < k_curve; ++at) {
-        json.number(filter_weight(filter, 4.0F * static_cast<float>(at) / static_cast<float>(k_curve - 1) - 2.0F));
+        const float distance = 4.0F * static_cast<float>(at) / static_cast<float>(k_curve - 1) - 2.0F;
+        write_drawn(json, {distance, filter_weight(filter, distance)});
     }
     json.end_array();
 }

@@ -3,6 +3,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "figure_list.hpp"
+#include "figure_numbers.hpp"
 #include "steps/14-materials/materials.hpp"
 #include "steps/15-mis/mis.hpp"
 
@@ -22,7 +23,7 @@ void weights_figure(Numbers numbers, JsonWriter& json) {
     json.key("curves").begin_array();
     for (int at = 0; at < k_curve; ++at) {
         const float one = greatest * static_cast<float>(at) / static_cast<float>(k_curve - 1);
-        json.begin_array().number(balance_heuristic(one, other)).number(power_heuristic(one, other)).end_array();
+        write_drawn(json, {balance_heuristic(one, other), power_heuristic(one, other)});
     }
     json.end_array();
 }
@@ -50,7 +51,7 @@ void ways_figure(Numbers numbers, JsonWriter& json) {
         const bool meets = along > 0.0F && glm::distance(lamp.center, along * direction) < lamp.radius;
         const float by_lamp = meets ? lamp_pdf : 0.0F;
         const float by_path = metal_pdf(view, direction, alpha);
-        json.begin_array().number(by_lamp).number(by_path).number(power_heuristic(by_lamp, by_path)).end_array();
+        write_drawn(json, {by_lamp, by_path, power_heuristic(by_lamp, by_path)});
     }
     json.end_array();
 }

@@ -13,7 +13,7 @@ const CORNERS = [
 /** How many of the samples lie where an even spread puts half of them, or of a triangle a quarter. */
 function spreadInWords(kind, points) {
   const isTriangle = KINDS[kind] === "triangle";
-  const inPart = points.filter(([, , , [x, y]]) => (isTriangle ? x > 0.25 : x * x + y * y > 0.5)).length;
+  const inPart = points.filter(([, , x, y]) => (isTriangle ? x > 0.25 : x * x + y * y > 0.5)).length;
   return isTriangle
     ? `${inPart} of them lie in the quarter at one corner, evenly spread it is 25`
     : `${inPart} of them lie in the outer half of it, evenly spread it is 50`;
@@ -57,7 +57,7 @@ export const LAMP = {
           view.segment(along([x, y], side, left * radius), along([x, y], side, right * radius), "edge");
           view.arrow([x, y], along([x, y], normal, 0.7), "axis");
         }
-        for (const [sampleX, sampleY, isSeen] of points.slice(0, 12)) {
+        for (const [sampleX, sampleY, , , isSeen] of points.slice(0, 12)) {
           view.segment([place, 0], [sampleX, sampleY], isSeen ? "faint" : "miss");
         }
         view.dots(points, "ray", 1.5);
@@ -72,19 +72,19 @@ export const LAMP = {
           view.line(CORNERS, "edge");
         }
         view.circle([0, 0], 1, KINDS[kind] === "triangle" ? "faint" : "edge");
-        for (const isLit of [true, false]) {
-          const some = points.filter(([, , isSeen]) => isSeen === isLit);
+        ["point", "ray"].forEach((look, isLit) => {
+          const some = points.filter((one) => one[4] === isLit);
           view.dots(
-            some.map(([, , , seen]) => seen),
-            isLit ? "ray" : "point",
+            some.map(([, , seenX, seenY]) => [seenX, seenY]),
+            look,
             2.5,
           );
-        }
+        });
       },
     },
   ],
   says: ({ kind }, { pdf, light, mean, points }) => {
-    const unseen = points.filter((one) => !one[2]).length;
+    const unseen = points.filter((one) => !one[4]).length;
     return (
       `${KINDS[kind] === "sphere" ? "Each point that is seen" : "The lamp's middle"} has the density ${said(pdf)} by ` +
       `solid angle; a sample of the middle brings ${said(light)}. The mean of 100 samples is ${said(mean)}` +
@@ -118,12 +118,11 @@ export const LENS = {
         { label: "Wall", moves: ["wall"], place: ({ wall }) => [-4.8, wall], drag: ([, y]) => ({ wall: y }) },
       ],
       draw: (view, { focal, radius, wall }, { rays }) => {
-        const fromAbove = ([x, , z]) => [x, -z];
         view.segment([-radius, 0], [radius, 0], "edge");
         view.segment([-5.4, focal], [8, focal], "miss");
         view.segment([-5.4, wall], [8, wall], "edge");
-        for (const [from, to] of rays) {
-          view.segment(fromAbove(from), fromAbove(to), "faint");
+        for (const [fromX, fromDepth, toX] of rays) {
+          view.segment([fromX, fromDepth], [toX, wall], "faint");
         }
         view.words([0.6, -0.4], "lens");
         view.words([-4.4, wall + 0.15], "wall");
@@ -136,7 +135,7 @@ export const LENS = {
       draw: (view, { radius }, { rays, middle }) => {
         view.circle([0, 0], radius, "faint");
         view.dots(
-          rays.map(([, [x, y]]) => [x - middle[0], y - middle[1]]),
+          rays.map(([, , x, y]) => [x - middle[0], y - middle[1]]),
           "ray",
           3,
         );

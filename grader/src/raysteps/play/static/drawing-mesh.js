@@ -47,7 +47,7 @@ export const MESH = {
       handles: [],
       draw: (view, { x, y }, { cut, lifted, normal }) => {
         view.segment([0, 0], [4 - y, 0], "edge");
-        view.line(cut.map(flat), "axis");
+        view.line(cut, "axis");
         view.segment([x, 0], flat(lifted), "miss");
         view.dot([x, 0], "point", 3);
         view.arrow(flat(lifted), flat(along(lifted, normal, 0.8)), "ray");
@@ -100,10 +100,7 @@ export const LEVEL = {
         for (let one = 0; one <= 6; one++) {
           view.segment([0, one], [FARTHEST, one], "faint");
         }
-        view.line(
-          curve.map((one, at) => [at, one]),
-          "edge",
-        );
+        view.line(curve, "edge");
         view.segment([distance, 0], [distance, level], "ray");
         view.dot([distance, level], "ray live-head", 4);
         view.words([1, 5.4], "level 0 to 6");

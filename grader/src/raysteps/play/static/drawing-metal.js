@@ -1,4 +1,4 @@
-import { DEGREE, flat, handle, list, said } from "./drawing-words.js";
+import { flat, handle, list, said } from "./drawing-words.js";
 
 // Step 14. From the side: x to the right, z up.
 
@@ -52,9 +52,8 @@ export const FRESNEL = {
 };
 
 const at = (label, min, max, start) => ({ label, min, max, step: 0.05, stride: 0.1, start });
-const upwards = (degrees, length) => [length * Math.sin(degrees * DEGREE), length * Math.cos(degrees * DEGREE)];
 
-const directionsOf = (normals) => normals.map(([, direction]) => direction).filter(Boolean);
+const directionsOf = (normals) => normals.filter((one) => one.length > 2).map(([, , ...direction]) => direction);
 
 export const METAL = {
   name: "metal",
@@ -81,9 +80,9 @@ export const METAL = {
         view.segment([0, 0], [eyeX, eyeZ], "ray");
         view.segment([0, 0], [lightX, lightZ], "miss");
         view.arrow([0, 0], flat(half), "axis");
-        const longest = Math.max(...lobe);
+        const longest = Math.max(...lobe.map(([, , density]) => density));
         view.line(
-          lobe.map((density, degree) => upwards(degree - 90, density / longest)),
+          lobe.map(([x, z]) => [x / longest, z / longest]),
           "channel live-blue",
         );
         view.dots(directionsOf(normals).map(flat), "point", 1.5);
@@ -97,11 +96,7 @@ export const METAL = {
       handles: [],
       draw: (view, _, { normals }) => {
         view.circle([0, 0], 1, "edge");
-        view.dots(
-          normals.map(([normal]) => normal),
-          "point",
-          1.5,
-        );
+        view.dots(normals, "point", 1.5);
         view.dots(directionsOf(normals), "ray", 2.5);
       },
     },

@@ -54,11 +54,11 @@ export const COSINE = {
         view.segment(towards(lean - 90, 1.1), towards(lean + 90, 1.1), "edge");
         view.arrow([0, 0], towards(lean, 0.9), "axis");
         view.line(
-          lobe.map((density, at) => towards(3 * at, LOBE * density)),
+          lobe.map((point) => point.map((one) => LOBE * one)),
           "channel live-blue",
         );
         view.dots(
-          others.map(([, , other]) => other),
+          others.map(([, , ...other]) => other),
           "point",
           1.5,
         );
@@ -74,7 +74,7 @@ export const COSINE = {
         const seen = ([toX, toY, toZ]) => [x * toX + y * toY, -toZ];
         view.circle([0, 0], 1, "edge");
         view.dots(
-          others.map(([, , other]) => seen(other)),
+          others.map(([, , ...other]) => seen(other)),
           "point",
           1.5,
         );
@@ -85,7 +85,7 @@ export const COSINE = {
   says: ({ x, y }, { normal, direction, height, pdf, weight, others }) =>
     `u = ${list([x, y])} becomes ${list(direction)}, which rises by ${said(height)} along the normal. Its density is ` +
     `${said(pdf)}, and the weight ${list(weight)}. Of all 200, ` +
-    `${others.filter(([, , other]) => dot(other, normal) ** 2 < 0.5).length} lie in the outer half of the circle, ` +
+    `${others.filter(([, , ...other]) => dot(other, normal) ** 2 < 0.5).length} lie in the outer half of the circle, ` +
     "evenly spread it is 100.",
 };
 
@@ -132,7 +132,7 @@ export const ROULETTE = {
         view.segment([0, 0], [500, 0], "faint");
         view.segment([0, 1], [500, 1], "miss");
         view.line(
-          means.map((mean, at) => [at + 1, Math.min(2, mean / right)]),
+          means.map(([count, mean]) => [count, Math.min(2, mean / right)]),
           "edge",
         );
         view.words([10, 1.85], "twice as much");

@@ -81,10 +81,7 @@ export const FILTER = {
         for (const side of [-0.5, 0.5]) {
           view.segment([side, -0.06], [side, 0.06], "edge"); // of the pixel
         }
-        view.line(
-          curve.map((weight, at) => [(4 * at) / (curve.length - 1) - 2, weight]),
-          "edge",
-        );
+        view.line(curve, "edge");
         SAMPLES_OF.forEach((name, at) => {
           view.segment([values[name], 0], [values[name], weights[at]], "ray");
           view.dot([values[name], weights[at]], "ray live-head", 4);
