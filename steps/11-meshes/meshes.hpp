@@ -49,7 +49,8 @@ namespace raysteps {
                                   float pixel_angle);
 
 /// The level whose texels are as large as the pixel, between two levels most of the time: log2 of the number of texels
-/// that the pixel covers. 0 where it is smaller than a texel, and at most the last level, levels - 1. levels >= 1.
+/// that the pixel covers. 0 where it is smaller than a texel or that number is NaN, and at most the last level,
+/// levels - 1. levels >= 1.
 [[nodiscard]] float mip_level(float texels, int levels);
 
 /// The bilinear colours of the two levels around `level`, blended: at 2.25 three quarters of level 2 and a quarter of
