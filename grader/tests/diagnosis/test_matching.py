@@ -113,6 +113,15 @@ def test_a_mistake_further_down_is_not_taken_for_one_upstream() -> None:
     assert named.mutant.id == "down"
 
 
+def test_what_another_function_spoils_is_no_mistake_of_its_own() -> None:
+    spoilt = _wrong("4 5 6", *range(30))
+    known = MutantFingerprint({"specular": spoilt}, {})
+    evidence = _evidence({"mirror": _wrong("7 8 9", *range(20)), "specular": spoilt})
+    for right_apart, names in (((), ["down"]), (("specular",), [])):
+        found = match(_mutant("down", "specular"), known, replace(evidence, right_apart=right_apart))
+        assert [one.mutant.id for one in name_mistakes([found])] == names
+
+
 def test_two_mistakes_in_two_functions_are_two() -> None:
     one, other = _wrong("4 5 6", *range(30)), _wrong("7 8 9", *range(20))
     known = {_mutant("first"): {"mirror": one}, _mutant("second", "diffuse"): {"diffuse": other}}

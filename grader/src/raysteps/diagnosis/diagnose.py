@@ -167,8 +167,9 @@ class Diagnostician:
         pictures = self._pictures(mine) if not unfinished else {}
         questions = self._questions(result, unfinished, spoilt_functions)
         answers = listen(questions, self.ask, _MAX_SECONDS) if self.ask is not None else {}
-        right = {item.name for item in result.hidden if item.kind == "function" and item.passed} - set(spoilt_functions)
-        named, spoilt = self._mistakes(Evidence(questions, answers, pictures, right))
+        passed = {item.name for item in result.hidden if item.kind == "function" and item.passed}
+        apart = passed & set(spoilt_functions)
+        named, spoilt = self._mistakes(Evidence(questions, answers, pictures, passed - apart, apart))
         open_ = {
             name: picture
             for name, picture in pictures.items()

@@ -142,12 +142,14 @@ class Picture:
 @dataclass(frozen=True)
 class Evidence:
     """`questions` and `answers` are of the functions that were asked, `pictures` are those that came out. `right`: the
-    functions that the judge found right."""
+    functions that the judge found right; `right_apart`: those that are right where the reference's stand for the wrong
+    ones before them."""
 
     questions: Mapping[str, Questions]
     answers: Answers
     pictures: Mapping[str, Picture]
     right: Collection[str] = ()
+    right_apart: Collection[str] = ()
 
     @property
     def is_wrong(self) -> bool:

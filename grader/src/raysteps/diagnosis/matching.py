@@ -55,7 +55,8 @@ class Match:
 
     `telling`: the pictures that are not of one colour, which may have any cause. `spoilt`: wrong pictures in which the
     mistake shows. `against`: what the mistake spoils and is right. `denied`: its own function is among that.
-    `in_trees`: pictures that hang on how a tree is built.
+    `in_trees`: pictures that hang on how a tree is built. `right_apart`: its own function is right where the
+    reference's stand for the wrong ones before it, so its wrong answers are another function's.
     """
 
     mutant: Mutant
@@ -67,6 +68,7 @@ class Match:
     denied: bool = False
     spoils_right: bool = False
     in_trees: set[str] = field(default_factory=set)
+    right_apart: bool = False
 
     def explains(self, told: Collection[str] = ()) -> dict[str, float]:
         """With a score from 0 to 1. `told`: pictures that other mistakes spoil: they do not speak against it."""
@@ -148,8 +150,8 @@ def spoils(mistake: Pixels | None, picture: Picture) -> bool:
 
 def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) -> Match:
     """One mistake against everything that was seen."""
-    found = Match(mutant)
     own = mutant.function
+    found = Match(mutant, right_apart=own in evidence.right_apart)
     is_right = own in evidence.right or (own in evidence.answers and not evidence.answers[own])
     found.denied = is_right and len(fingerprint.answers.get(own, {})) >= _FEWEST_DENYING
     for name, mine in evidence.answers.items():
@@ -255,6 +257,7 @@ class _Open:
 def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
     """The likeliest first. `matches`: of all known mistakes, in the catalogue's order."""
     open_ = _Open({name for match in matches for name in (*match.functions, *match.pictures)}, set())
+    matches = [one for one in matches if not one.right_apart]
     named: list[NamedMistake] = []
     while len(named) < _MAX:
         worths = [(match, open_.worth(match)) for match in matches]
