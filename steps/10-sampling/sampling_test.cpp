@@ -239,6 +239,8 @@ TEST_CASE("linear_to_srgb: known values", "[10-sampling][linear_to_srgb]") {
     INFO("the darkest lie on a line");
     CHECK(linear_to_srgb(0.001F) == about(0.01292));
     CHECK(linear_to_srgb(0.003F) == about(0.03876));
+    INFO("the line ends at 0.0031308");
+    CHECK(linear_to_srgb(0.02F) == about(0.151704));
 }
 
 TEST_CASE("linear_to_srgb: clamps and survives what is no light", "[10-sampling][linear_to_srgb]") {

@@ -328,6 +328,7 @@ _SRGB = Function(
     (
         Group("any channel", lambda d: _channel(d.fine(0.01, 0.99))),
         Group("the darkest", lambda d: _channel(d.fine(0.0001, 0.003))),
+        Group("just above the line", lambda d: _channel(d.fine(0.0033, 0.04))),
         Group("0 and 1", lambda d: _channel(float(d.whole(0, 1))), exact=True),
         Group("above 1", lambda d: _channel((1.001, 1.5, 30.0, 1e30, math.inf)[d.whole(0, 4)]), exact=True),
         Group("negative or NaN", lambda d: _channel(_NO_LIGHT[d.whole(0, 5)]), exact=True),
