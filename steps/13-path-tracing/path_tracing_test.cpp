@@ -274,6 +274,10 @@ TEST_CASE("path_light: a lamp that the eye sees", "[13-path-tracing][path_light]
                IsNear(Color(3.0F, 2.0F, 1.0F)));
     INFO("not from behind");
     CHECK_THAT(light_along({Stop{.emission = Color(3.0F), .scatters = false, .front_face = false}}), IsNear(k_black));
+    INFO("3 + 0.1 + 0.5 * 0.4: a lamp is a surface, too, and the path goes on from there");
+    CHECK_THAT(light_along({Stop{.emission = Color(3.0F), .light = Color(0.1F), .weight = Color(0.5F)},
+                            Stop{.light = Color(0.4F), .scatters = false}}),
+               IsNear(Color(3.3F)));
 }
 
 TEST_CASE("path_light: each hit's light sample counts times the weight", "[13-path-tracing][path_light]") {
