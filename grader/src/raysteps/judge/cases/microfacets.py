@@ -47,21 +47,25 @@ def _leans_too_much(*, towards: bool) -> str:
     return f"microfacets lean too much {'towards' if towards else 'away from'} the view"
 
 
-def _seen_shares(normals: Numbers, view: Numbers, alpha: float) -> Numbers:
-    """Views and normals row by row."""
+def _stretched(view: Numbers, alpha: float) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+    """By how much each axis is stretched, the view then, and two directions across it, the first one level."""
     stretch = np.array([alpha, alpha, 1.0])
     seen = view * stretch
-    seen /= np.linalg.norm(seen, axis=1, keepdims=True)
-    tips = normals / stretch
-    tips /= np.linalg.norm(tips, axis=1, keepdims=True)
-    across = np.stack([-seen[:, 1], seen[:, 0], np.zeros(len(seen))], axis=1)
-    size = np.linalg.norm(across, axis=1, keepdims=True)
-    across = np.where(size > 1e-9, across / np.maximum(size, 1e-9), np.array([1.0, 0.0, 0.0]))
-    up = np.cross(seen, across)
-    x, y = np.clip((tips * across).sum(axis=1), -1, 1), (tips * up).sum(axis=1)
+    seen /= np.linalg.norm(seen)
+    across = np.array([-seen[1], seen[0], 0.0])
+    size = np.linalg.norm(across)
+    across = across / size if size > 1e-9 else np.array([1.0, 0.0, 0.0])
+    return stretch, seen, across, np.cross(seen, across)
+
+
+def _seen_shares(normals: Numbers, view: Numbers, alpha: float) -> Numbers:
+    """Of normals row by row, all for one view."""
+    stretch, seen, across, up = _stretched(view, alpha)
+    tips = units(normals / stretch)
+    x, y = np.clip(tips @ across, -1, 1), tips @ up
     half = np.sqrt(np.maximum(1 - x * x, 1e-12))
     one = 0.5 + (x * half + np.arcsin(x)) / math.pi
-    other = (y / half + seen[:, 2]) / (1 + seen[:, 2])
+    other = (y / half + seen[2]) / (1 + seen[2])
     return np.asarray(np.clip(np.stack([one, other], axis=1), 0.0, 1.0))
 
 
@@ -74,7 +78,7 @@ def visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
         return "a microfacet's normal points below the surface"
     if len(normals) < 2:
         return ""
-    shares = _seen_shares(normals, np.broadcast_to(np.array(view), normals.shape), alpha)
+    shares = _seen_shares(normals, np.array(view), alpha)
     bins = _MANY if len(normals) >= _MANY_NORMALS else _FEW
     across, up = shares[:, 0], shares[:, 1]
     if not (is_uniform(across, 4 * bins) and has_mean(across, 0.5, math.sqrt(1 / 12))):
@@ -92,17 +96,13 @@ _TRIES = 20_000  # of the judge's own: what is lost, and what is left
 def _visible_normals(view: Numbers, alpha: float) -> Numbers:
     """Drawn as Heitz (2018) does, always with the same numbers."""
     rng = np.random.default_rng(14)
-    stretch = np.array([alpha, alpha, 1.0])
-    seen = view * stretch
-    seen /= np.linalg.norm(seen)
-    across = np.array([-seen[1], seen[0], 0.0])
-    across = across / np.linalg.norm(across) if np.linalg.norm(across) > 1e-9 else np.array([1.0, 0.0, 0.0])
+    stretch, seen, across, up = _stretched(view, alpha)
     radius, turn = np.sqrt(rng.random(_TRIES)), 2 * math.pi * rng.random(_TRIES)
     x = radius * np.cos(turn)
     share = 0.5 * (1 + seen[2])
     y = (1 - share) * np.sqrt(1 - x * x) + share * radius * np.sin(turn)
     height = np.sqrt(np.maximum(0.0, 1 - x * x - y * y))
-    tips = x[:, None] * across + y[:, None] * np.cross(seen, across) + height[:, None] * seen
+    tips = x[:, None] * across + y[:, None] * up + height[:, None] * seen
     return units(tips * stretch)
 
 
@@ -114,15 +114,11 @@ def _kept_shares(viewed: Vector, alpha: float, eta: float | None) -> Numbers:
     cosines = np.clip(normals @ view, 0.0, 1.0)
     above = 2 * cosines * normals[:, 2] - view[2] > 0
     if eta is None:
-        return _shares_from(view, normals[above], alpha)
+        return _seen_shares(normals[above], view, alpha)
     other = np.sqrt(np.maximum(0.0, 1 - eta * eta * (1 - cosines**2)))
     below = (eta * cosines - other) * normals[:, 2] - eta * view[2] < 0
     is_mirrored = np.random.default_rng(15).random(_TRIES) < dielectric(cosines, eta)
-    return _shares_from(view, normals[np.where(is_mirrored, above, below)], alpha)
-
-
-def _shares_from(view: Numbers, normals: Numbers, alpha: float) -> Numbers:
-    return _seen_shares(normals, np.broadcast_to(view, normals.shape), alpha)
+    return _seen_shares(normals[np.where(is_mirrored, above, below)], view, alpha)
 
 
 def rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, eta: float | None = None) -> str:
@@ -134,7 +130,7 @@ def rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, e
     lost = _TRIES - len(own)
     if not happens_so_often(nothing, count, lost, _TRIES):
         return f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
-    mine = _shares_from(view[0], normals, alpha)
+    mine = _seen_shares(normals, view[0], alpha)
     if not have_one_mean(mine[:, 0], own[:, 0]):
         return _ASKEW
     if not have_one_mean(mine[:, 1], own[:, 1]):
