@@ -64,4 +64,14 @@ void run_on_threads(int count, const std::function<void()>& work) {
     }
 }
 
+void run_in_portions(int threads, std::size_t count, std::size_t portion,
+                     const std::function<void(std::size_t, std::size_t)>& work) {
+    std::atomic<std::size_t> next{0};
+    run_on_threads(threads, [&] {
+        for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
+            work(begin, std::min(begin + portion, count));
+        }
+    });
+}
+
 }  // namespace raysteps

@@ -1,7 +1,5 @@
 #pragma once
 // The same work on several threads at once: for the pixels of a picture, and for the boxes of a tree.
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <functional>
 
@@ -22,16 +20,17 @@ void set_work_runner(WorkRunner runner);
 /// Whether that was done. Then work had better be cut into many small parts, of which many wait at the same time.
 [[nodiscard]] bool work_waits();
 
+/// Calls work(begin, end) for portions that together are the numbers from 0 to count - 1, on so many threads.
+void run_in_portions(int threads, std::size_t count, std::size_t portion,
+                     const std::function<void(std::size_t, std::size_t)>& work);
+
 /// Calls work(0) to work(count - 1), each once, in any order and on so many threads, which take `portion` numbers at a
 /// time.
 template <typename Work>
 void share_among_threads(int threads, std::size_t count, std::size_t portion, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    run_on_threads(threads, [&] {
-        for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
-            for (std::size_t i = begin; i < std::min(begin + portion, count); ++i) {
-                work(i);
-            }
+    run_in_portions(threads, count, portion, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            work(i);
         }
     });
 }

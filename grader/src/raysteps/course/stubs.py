@@ -197,6 +197,14 @@ def stub_for(project: Project, step: Step) -> str:
     return make_stub((project.solutions / step.path).read_text(encoding="utf-8"), step)
 
 
+_INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*(<[^>\n]+>|\"[^\"\n]+\")", re.MULTILINE)
+
+
+def included(source: str) -> list[str]:
+    """The headers of a file's include lines, with their brackets or quotation marks."""
+    return _INCLUDE.findall(source)
+
+
 def pristine_stub(project: Project, step: Step) -> str:
     """The step as the student got it: made from the solution, or where there are none, as the kit keeps it."""
     if project.has_reference:

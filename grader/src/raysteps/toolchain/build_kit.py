@@ -16,6 +16,7 @@ from raysteps.common.files import write_bytes, write_json
 from raysteps.common.platform import executable
 from raysteps.course.manifest import Step, course_manifests, kit_steps, read_all_steps, read_steps, up_to
 from raysteps.course.project import Project
+from raysteps.course.stubs import included, pristine_stub
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Output, Task
 from raysteps.toolchain.catch2 import list_tests
@@ -88,7 +89,7 @@ def _slowness(project: Project, folder: Path) -> float:
 
 _COMPILERS = 4  # at a time; each takes some hundred megabytes
 _NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
-_FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "rest", "steps")
+_FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "precompiled", "rest", "steps")
 
 
 class Assembly:
@@ -141,7 +142,8 @@ class Assembly:
 
         def one(step: Step) -> None:
             say(f"compiling the headers of step {step.number} for later")
-            precompile(self._description, self._folder / "include", step.id)
+            headers = included(pristine_stub(self._project, step))
+            precompile(self._description, self._folder / "include", headers, self._folder / "precompiled")
 
         with ThreadPoolExecutor(min(_COMPILERS, os.cpu_count() or 1)) as pool:
             list(pool.map(one, self._steps))

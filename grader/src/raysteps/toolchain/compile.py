@@ -13,6 +13,7 @@ from raysteps.common.platform import executable
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
+from raysteps.course.stubs import included, pristine_stub
 from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.kit_artifacts import NOTHING, BuiltKit, Kind, ProgramLinker, Replaced
 from raysteps.toolchain.limits import StepLimits
@@ -220,6 +221,8 @@ class StudentBuild:
         write_bytes(path, source)
         description = self._kit.description
         words: list[Word] = [description.compiler, *description.compile_flags]
+        if set(included(pristine_stub(self._kit.project, step))) <= set(included(source.decode("utf-8", "replace"))):
+            words += ["-I", Input(self._kit.folder / "precompiled")]  # names that the file does not include stay out
         words += include_words(description, Input(self._kit.include), [Input(it) for it in description.more_includes])
         words += compile_words(description, Input(path, step.file), Output("object"))
         ran = self._run(limits, *words)

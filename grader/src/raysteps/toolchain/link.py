@@ -198,17 +198,16 @@ def link_placeholder(description: Description, names: Sequence[str], library: Pa
     source.unlink()
 
 
-def precompile(description: Description, include: Path, step: str) -> None:
-    """The step's contract as g++ keeps it in memory. It is taken where a file includes the contract first, as all stubs
-    do, and saves half of the time; whatever else a file does, it is compiled as if there were none."""
-    folders: list[str | Path] = ["-I", include]
-    for folder in description.more_includes:
-        folders += ["-isystem", folder]
-    for header in (include / "steps" / step).glob("*.hpp"):
-        words = [description.compiler, *description.compile_flags, *folders, "-w", "-x", "c++-header", header]
-        whole = Path(f"{header}.gch")
-        _run([*words, "-o", whole.with_suffix(".new")])
-        whole.with_suffix(".new").replace(whole)  # whoever includes this one takes no half of it
+def precompile(description: Description, include: Path, headers: Sequence[str], folder: Path) -> None:
+    """What a stub includes, the contract first, as g++ keeps it in memory: it takes that from `folder` where a file
+    includes the contract before anything else, and saves more than half of the time."""
+    contract = headers[0].strip('"')
+    whole, source = folder / f"{contract}.gch", folder / f"{contract}.all"
+    write_bytes(source, "".join(f"#include {header}\n" for header in headers).encode())
+    words = [description.compiler, *description.compile_flags]
+    words += include_words(description, str(include), list(map(str, description.more_includes)))
+    _run([*words, "-w", "-x", "c++-header", source, "-o", whole])
+    source.unlink()
 
 
 def interpreter_of(readelf: str, program: Path) -> str:

@@ -1,0 +1,83 @@
+"""Headers that are compiled once save time, and a file sees no name more than it includes."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.process import run
+from raysteps.course.manifest import Step
+from raysteps.course.stubs import included, pristine_stub
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Input, Output, Sandbox, Task, TaskResult, Word
+from raysteps.toolchain.compile import Compiled, StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import limits_of
+
+_STEP = "07"
+# Ambiguous where <algorithm> is included.
+_OWN_CLAMP = """
+using namespace std;
+template <typename T> T clamp(const T& x, const T& low, const T& high) { return x < low ? low : high < x ? high : x; }
+int between = clamp(3, 1, 2);
+"""
+
+
+@pytest.fixture(autouse=True)
+def _gnu(kit: BuiltKit) -> None:
+    if not kit.description.compiler_version.startswith("GNU"):
+        pytest.skip("only g++ is given compiled headers")
+
+
+class _Told:
+    """Has g++ tell of each header that it reads."""
+
+    isolation = LimitsOnly.isolation
+
+    def __init__(self) -> None:
+        self.compiled_headers: list[str] = []
+
+    @staticmethod
+    def _outside(word: Word) -> str | Path:
+        match word:
+            case Input():
+                return word.path
+            case Output():
+                return os.devnull
+            case _:
+                return word
+
+    def run(self, task: Task) -> TaskResult:
+        if "-c" in task.command:
+            words = [self._outside(word) for word in task.command]
+            lines = run([*words, "-H"], seconds=60).stderr.splitlines()
+            self.compiled_headers += [line for line in lines if line.startswith("! ")]
+        return LimitsOnly().run(task)
+
+
+def _compiled(kit: BuiltKit, step: Step, source: str, folder: Path, sandbox: Sandbox) -> Compiled:
+    return StudentBuild(kit, sandbox, folder).compile(step, source.encode(), limits_of(step, {}))
+
+
+def test_they_are_taken_for_every_file_that_begins_as_its_stub(
+    kit: BuiltKit, solved: dict[str, str], tmp_path: Path
+) -> None:
+    for step in kit.steps:
+        told = _Told()
+        compiled = _compiled(kit, step, solved[step.id], tmp_path / step.number, told)
+        assert compiled.binary is not None
+        assert len(told.compiled_headers) == 1, step.id
+
+
+def test_names_of_headers_that_a_file_does_not_include_stay_free(kit: BuiltKit, tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == _STEP)
+    headers = included(pristine_stub(kit.project, step))
+    assert "<algorithm>" in headers
+
+    def code(names: list[str]) -> int:
+        source = "".join(f"#include {name}\n" for name in names) + _OWN_CLAMP
+        folder = tmp_path / str(len(names))
+        return _compiled(kit, step, source, folder, LimitsOnly()).ran.outcome.code
+
+    assert code([name for name in headers if name != "<algorithm>"]) == 0
+    assert code(headers) != 0
