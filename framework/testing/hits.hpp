@@ -1,8 +1,11 @@
 #pragma once
 // What tests ask of hits that were found in two ways.
 #include <optional>
+#include <type_traits>
+#include <vector>
 
 #include "core/hit_record.hpp"
+#include "core/threads.hpp"
 #include "testing/catch.hpp"
 #include "testing/matchers.hpp"
 #include "testing/string_makers.hpp"
@@ -17,6 +20,24 @@ inline void check_identical(const std::optional<HitRecord>& expected, const std:
         REQUIRE(actual->fill.kd == expected->fill.kd);
         REQUIRE(actual->normal == expected->normal);
     }
+}
+
+/// make(0) to make(count - 1).
+template <typename Make>
+std::vector<Ray> rays(int count, const Make& make) {
+    std::vector<Ray> made;
+    for (int i = 0; i < count; ++i) {
+        made.push_back(make(i));
+    }
+    return made;
+}
+
+/// ask(question) for each of them, in any order: many at a time where the step is asked in a process of its own.
+template <typename Question, typename Ask>
+auto answers_to(const std::vector<Question>& questions, const Ask& ask) {
+    std::vector<std::invoke_result_t<Ask, const Question&>> answers(questions.size());
+    for_each_in_turn(questions.size(), [&](std::size_t i) { answers[i] = ask(questions[i]); });
+    return answers;
 }
 
 /// Compares a search through a tree with the search through the whole list.

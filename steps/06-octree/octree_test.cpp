@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <string_view>
+#include <vector>
 
 #include "core/scene.hpp"
 #include "core/stats.hpp"
@@ -18,23 +20,41 @@ namespace {
 
 const glm::vec3 k_down{0.0F, 0.0F, -1.0F};
 
-void check_same_hit(const Node& root, const SurfaceList& surfaces, const Ray& ray) {
-    testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_octree(root, ray));
+void check_same_hits(const Node& root, const SurfaceList& surfaces, const std::vector<Ray>& rays) {
+    const auto hits = answers_to(rays, [&](const Ray& ray) { return closest_hit_in_octree(root, ray); });
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check_same_hit(rays[i], closest_hit(surfaces, rays[i]), hits[i]);
+    }
 }
 
+struct Occlusion {
+    Ray ray;
+    float distance;
+    std::string_view why;
+    bool expected;
+};
+
 /// Asks for any hit well before the closest hit of the whole list and well behind it, and without an end.
-void check_same_occlusion(const Node& root, const SurfaceList& surfaces, const Ray& ray) {
-    const std::optional<HitRecord> closest = closest_hit(surfaces, ray);
-    CAPTURE(ray);
-    INFO("the closest hit: " << (closest ? text(*closest) : "a miss"));
-    if (closest) {
-        INFO("a distance a little behind the closest hit: it is nearer");
-        REQUIRE(occluded_in_octree(root, ray, 1.01F * closest->distance));
-        INFO("a distance a little before the closest hit: nothing is nearer");
-        REQUIRE_FALSE(occluded_in_octree(root, ray, 0.99F * closest->distance));
+void check_same_occlusion(const Node& root, const SurfaceList& surfaces, const std::vector<Ray>& rays) {
+    std::vector<Occlusion> questions;
+    for (const Ray& ray : rays) {
+        const std::optional<HitRecord> closest = closest_hit(surfaces, ray);
+        if (closest) {
+            questions.push_back(
+                {ray, 1.01F * closest->distance, "a little behind the closest hit: it is nearer", true});
+            questions.push_back({ray, 0.99F * closest->distance, "a little before it: nothing is nearer", false});
+        }
+        questions.push_back({ray, 1000.0F, "behind everything", closest.has_value()});
     }
-    INFO("a distance of 1000, behind everything");
-    REQUIRE(occluded_in_octree(root, ray, 1000.0F) == closest.has_value());
+    const auto answers = answers_to(
+        questions, [&](const Occlusion& asked) { return occluded_in_octree(root, asked.ray, asked.distance); });
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        const auto& [ray, distance, why, expected] = questions[i];
+        CAPTURE(ray);
+        INFO("a distance of " << distance << ", " << why);
+        const bool occluded = answers[i];
+        REQUIRE(occluded == expected);
+    }
 }
 
 struct Sight {
@@ -100,22 +120,20 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree", "[06-octre
     const Scene scene = mixed_scene(random, 250, 25);
     const Node root = columns_around(scene.surfaces());
     SECTION("rays from inside the scene") {
-        for (int i = 0; i < 1500; ++i) {
-            check_same_hit(root, scene.surfaces(), random.ray(5.0F));
-        }
+        check_same_hits(root, scene.surfaces(), rays(1500, [&](int) { return random.ray(5.0F); }));
     }
     SECTION("rays from outside") {
-        for (int i = 0; i < 1500; ++i) {
-            check_same_hit(root, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
-        }
+        check_same_hits(root, scene.surfaces(),
+                        rays(1500, [&](int) { return random.ray_towards(random.point(5.0F), 20.0F); }));
     }
     SECTION("rays along the axes, also in the planes between boxes") {
-        for (int i = 0; i < 600; ++i) {
+        const auto along_an_axis = [&](int i) {
             glm::vec3 direction(i % 4 < 2 ? 0.0F : -0.0F);  // equal, but 1 / 0 has another sign
             direction[i % 3] = i % 2 == 0 ? 1.0F : -1.0F;
             const glm::vec3 target = i % 5 == 0 ? glm::round(random.point(4.0F)) : random.point(5.0F);
-            check_same_hit(root, scene.surfaces(), {target - 12.0F * direction, direction});
-        }
+            return Ray{target - 12.0F * direction, direction};
+        };
+        check_same_hits(root, scene.surfaces(), rays(600, along_an_axis));
     }
 }
 
@@ -131,9 +149,8 @@ TEST_CASE("closest_hit_in_octree: a nearer hit in a later box is not lost", "[06
     const Node root = columns_around(scene.surfaces());
     Random random;
     INFO(random);
-    for (int i = 0; i < 1500; ++i) {
-        check_same_hit(root, scene.surfaces(), random.ray_towards(random.point(7.0F), 25.0F));
-    }
+    check_same_hits(root, scene.surfaces(),
+                    rays(1500, [&](int) { return random.ray_towards(random.point(7.0F), 25.0F); }));
 }
 
 TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small things",
@@ -145,12 +162,8 @@ TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small t
                                          glm::vec3{0.0F, 300.0F, -5.5F}, Fill{}));
     scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 400.0F));
     const Node root = columns_around(scene.surfaces());
-    for (int i = 0; i < 500; ++i) {
-        const Ray ray = random.ray(5.0F);
-        INFO("wherever a ray from inside the dome goes, it meets something");
-        REQUIRE(closest_hit_in_octree(root, ray).has_value());
-        check_same_hit(root, scene.surfaces(), ray);
-    }
+    INFO("wherever a ray from inside the dome goes, it meets something");
+    check_same_hits(root, scene.surfaces(), rays(500, [&](int) { return random.ray(5.0F); }));
 }
 
 TEST_CASE("closest_hit_in_octree: of several hits at one distance the first in the scene counts",
@@ -238,10 +251,9 @@ TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance",
     INFO(random);
     const Scene scene = mixed_scene(random, 250, 25);
     const Node root = columns_around(scene.surfaces());
-    for (int i = 0; i < 1000; ++i) {
-        check_same_occlusion(root, scene.surfaces(), random.ray(5.0F));
-        check_same_occlusion(root, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
-    }
+    check_same_occlusion(root, scene.surfaces(), rays(1000, [&](int) { return random.ray(5.0F); }));
+    check_same_occlusion(root, scene.surfaces(),
+                         rays(1000, [&](int) { return random.ray_towards(random.point(5.0F), 20.0F); }));
 }
 
 TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it", "[06-octree][occluded_in_octree]") {
@@ -250,9 +262,7 @@ TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it", "[06-
     Scene scene = mixed_scene(random, 60, 0);
     scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 400.0F));
     const Node root = columns_around(scene.surfaces());
-    for (int i = 0; i < 500; ++i) {
-        check_same_occlusion(root, scene.surfaces(), random.ray(5.0F));
-    }
+    check_same_occlusion(root, scene.surfaces(), rays(500, [&](int) { return random.ray(5.0F); }));
     INFO("the only ball is met at 4; a distance of 4 ends there, so nothing is nearer");
     Scene one;
     one.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
@@ -269,14 +279,13 @@ TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octr
             scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
         }
         const Node root = build_octree(scene.surfaces());
-        check_same_hit(root, scene.surfaces(), {{1.2F, 0.9F, 9.0F}, k_down});
+        check_same_hits(root, scene.surfaces(), {{{1.2F, 0.9F, 9.0F}, k_down}});
     }
     SECTION("a single surface") {
         Scene scene;
         scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
         const Node root = build_octree(scene.surfaces());
-        check_same_hit(root, scene.surfaces(), {{0.0F, 0.0F, 9.0F}, k_down});
-        check_same_hit(root, scene.surfaces(), {{0.0F, 0.0F, 0.0F}, k_down});
+        check_same_hits(root, scene.surfaces(), {{{0.0F, 0.0F, 9.0F}, k_down}, {{0.0F, 0.0F, 0.0F}, k_down}});
     }
     SECTION("triangles that all lie in one plane: a flat box") {
         Scene scene;
@@ -286,9 +295,8 @@ TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octr
                                                  glm::vec3{x, 1.0F, 0.0F}, Fill{}));
         }
         const Node root = build_octree(scene.surfaces());
-        for (int i = 0; i < 30; ++i) {
-            check_same_hit(root, scene.surfaces(), {{static_cast<float>(i) + 0.3F, 0.3F, 5.0F}, k_down});
-        }
+        check_same_hits(root, scene.surfaces(),
+                        rays(30, [](int i) { return Ray{{static_cast<float>(i) + 0.3F, 0.3F, 5.0F}, k_down}; }));
     }
     SECTION("no surfaces: no hit") {
         CHECK_FALSE(closest_hit_in_octree(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}).has_value());

@@ -2,6 +2,7 @@
 // tree that the tests make themselves.
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "core/stats.hpp"
 #include "steps/02-intersection/intersection.hpp"
@@ -38,15 +39,29 @@ Scene hundred_slopes() {
     return scene;
 }
 
-void check_same_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray) {
-    testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_bvh(bvh, ray));
+void check_same_hits(const Bvh& bvh, const SurfaceList& surfaces, const std::vector<Ray>& rays) {
+    const auto hits = answers_to(rays, [&](const Ray& ray) { return closest_hit_in_bvh(bvh, ray); });
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check_same_hit(rays[i], closest_hit(surfaces, rays[i]), hits[i]);
+    }
 }
 
-void check_occlusion(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray, float distance) {
-    const std::optional<HitRecord> nearest = closest_hit(surfaces, ray);
-    CAPTURE(ray, distance);
-    INFO("the nearest hit: " << (nearest ? text(*nearest) : "none"));
-    REQUIRE(occluded_in_bvh(bvh, ray, distance) == (nearest && nearest->distance < distance));
+struct Occlusion {
+    Ray ray;
+    float distance;
+};
+
+void check_occlusion(const Bvh& bvh, const SurfaceList& surfaces, const std::vector<Occlusion>& questions) {
+    const auto answers =
+        answers_to(questions, [&](const Occlusion& asked) { return occluded_in_bvh(bvh, asked.ray, asked.distance); });
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        const auto& [ray, distance] = questions[i];
+        const std::optional<HitRecord> nearest = closest_hit(surfaces, ray);
+        CAPTURE(ray, distance);
+        INFO("the nearest hit: " << (nearest ? text(*nearest) : "none"));
+        const bool occluded = answers[i];
+        REQUIRE(occluded == (nearest && nearest->distance < distance));
+    }
 }
 
 }  // namespace
@@ -57,25 +72,23 @@ TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][clo
     const Scene scene = mixed_scene(random, 250, 25);
     const Bvh bvh = chain_of_leaves(scene.surfaces());
     SECTION("rays from inside the scene") {
-        for (int i = 0; i < 1500; ++i) {
-            check_same_hit(bvh, scene.surfaces(), random.ray(5.0F));
-        }
+        check_same_hits(bvh, scene.surfaces(), rays(1500, [&](int) { return random.ray(5.0F); }));
     }
     SECTION("rays from outside") {
-        for (int i = 0; i < 1500; ++i) {
-            check_same_hit(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F));
-        }
+        check_same_hits(bvh, scene.surfaces(),
+                        rays(1500, [&](int) { return random.ray_towards(random.point(5.0F), 20.0F); }));
     }
     SECTION("rays along the axes, also in the faces of boxes") {
-        for (int i = 0; i < 600; ++i) {
+        const auto along_an_axis = [&](int i) {
             glm::vec3 direction(i % 4 < 2 ? 0.0F : -0.0F);  // equal, but 1 / 0 has another sign
             direction[i % 3] = i % 2 == 0 ? 1.0F : -1.0F;
             glm::vec3 target = random.point(5.0F);
             if (i % 5 == 0) {
                 target = scene.surfaces()[static_cast<std::size_t>(i) % 275]->bounds().min;
             }
-            check_same_hit(bvh, scene.surfaces(), {target - 12.0F * direction, direction});
-        }
+            return Ray{target - 12.0F * direction, direction};
+        };
+        check_same_hits(bvh, scene.surfaces(), rays(600, along_an_axis));
     }
 }
 
@@ -125,11 +138,12 @@ TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bv
     INFO(random);
     const Scene scene = mixed_scene(random, 150, 20);
     const Bvh bvh = chain_of_leaves(scene.surfaces());
+    std::vector<Occlusion> questions;
     for (int i = 0; i < 1500; ++i) {
-        check_occlusion(bvh, scene.surfaces(), random.ray(5.0F), random.uniform(0.0F, 12.0F));
-        check_occlusion(bvh, scene.surfaces(), random.ray_towards(random.point(5.0F), 20.0F),
-                        random.uniform(10.0F, 30.0F));
+        questions.push_back({random.ray(5.0F), random.uniform(0.0F, 12.0F)});
+        questions.push_back({random.ray_towards(random.point(5.0F), 20.0F), random.uniform(10.0F, 30.0F)});
     }
+    check_occlusion(bvh, scene.surfaces(), questions);
 }
 
 TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count", "[09-bvh][occluded_in_bvh]") {
