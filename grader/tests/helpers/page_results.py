@@ -13,6 +13,7 @@ from raysteps.results.model import (
     CaseGroup,
     Diagnosis,
     HiddenResult,
+    Histogram,
     ImageResult,
     Integration,
     Results,
@@ -86,6 +87,7 @@ def wrong_step(step: Step, folder: Path, shape: tuple[int, int] = (24, 32)) -> S
         actual=f"(0, 0, 1) {NASTY}",
         case=f"cases/{step.number}-mirror.json",
         outcome="wrong",
+        histogram=Histogram(f"directions {NASTY}", [30, 10, 0, 0], [10.0, 10.0, 10.0, 10.0]),
     )
     return StepResult(
         step.id,

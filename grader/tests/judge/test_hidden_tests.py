@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from judge_fakes import Ended, FakeWorker, ran, words
 
@@ -13,9 +14,11 @@ from raysteps.common.vectors import Vector
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.answers import Verdict
+from raysteps.judge.functions import functions_of
 from raysteps.judge.hidden_tests import make_cases, nearness, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32
+from raysteps.judge.statistics import uneven
 from raysteps.judge.worker import Ask, TimeBudget, ask_worker
 from raysteps.results.model import HiddenResult
 from raysteps.sandbox.task import TaskResult
@@ -65,6 +68,19 @@ def test_right_answers(step: Step, plan: Plan) -> None:
         assert result.outcome == "ok"
         assert result.message == result.given == result.expected == result.actual == ""
         assert all(group.cases == group.right > 0 for group in result.groups)
+
+
+def test_the_histogram_of_uneven_samples_goes_with_the_result(
+    step: Step, plan: Plan, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    function = functions_of("07")["to_byte"]
+    crowded = uneven("they crowd", "numbers", np.zeros(64))
+    answer = replace(function.answer, problem=lambda _, right, mine: "" if right == mine else crowded)
+    monkeypatch.setitem(functions_of("07"), "to_byte", replace(function, answer=answer))
+    results = judge(step, plan, FakeWorker(stub))
+    assert results["to_byte"].histogram == crowded.histogram
+    assert results["tone_map"].histogram is None
+    assert "they crowd" in results["to_byte"].message
 
 
 def test_a_stub_earns_nothing(step: Step, plan: Plan) -> None:

@@ -9,7 +9,7 @@ import pytest
 from raysteps.judge.functions import Function, functions_of
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers
+from raysteps.judge.statistics import Numbers, Uneven
 
 pytestmark = pytest.mark.portable
 
@@ -50,6 +50,15 @@ def test_points_of_a_disk_are_told_by_where_they_crowd(name: str) -> None:
     mapping, said = _DISKS[name]
     numbers = np.random.default_rng(12).random((2, 2048))
     assert _problem(_FUNCTIONS["unit_disk"], _inputs("unit_disk", "many points"), mapping(*numbers)) == said
+
+
+def test_the_histogram_of_a_disk_has_its_rings_from_the_middle_to_the_rim() -> None:
+    x, y = np.random.default_rng(12).random((2, 2048))
+    problem = _problem(_FUNCTIONS["unit_disk"], _inputs("unit_disk", "many points"), _disk(x, y))
+    assert isinstance(problem, Uneven)
+    counts = problem.histogram.counts
+    assert sum(counts) == 2048
+    assert counts[0] > 3 * 2048 / 16 > 3 * counts[-1]  # a quarter of all within a sixteenth of the area
 
 
 def test_right_points_pass_whatever_the_numbers() -> None:

@@ -10,7 +10,7 @@ from raysteps.judge.answers import Verdict
 from raysteps.judge.cases.sampling import FUNCTIONS
 from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Inputs, Whole, text
-from raysteps.judge.statistics import Numbers, are_independent, chi_square_tail, has_mean, is_uniform
+from raysteps.judge.statistics import Numbers, are_independent, chi_square_tail, has_mean, is_uniform, uneven
 
 _SEED = 20
 
@@ -35,6 +35,15 @@ def test_the_tail_is_that_of_the_tables(value: float, degrees: int, tail: float)
 
 def test_a_tail_far_out_is_as_small_as_it_is() -> None:
     assert chi_square_tail(4 * 70.0, 2) == pytest.approx(math.exp(-140.0), rel=1e-9)
+
+
+def test_a_histogram_shows_what_came_beside_what_should() -> None:
+    low = np.concatenate([np.full(300, 0.01), np.full(100, 0.99)])
+    even = uneven("too low", "numbers", low).histogram
+    assert (even.counts[0], even.counts[-1], sum(even.counts)) == (300, 100, 400)
+    assert even.expected == [25.0] * 16
+    beside = uneven("too low", "numbers", low, np.repeat([0.01, 0.99], 1000)).histogram
+    assert (beside.expected[0], beside.expected[7], beside.expected[-1]) == (200.0, 0.0, 200.0)
 
 
 def test_even_numbers_pass_and_uneven_ones_do_not() -> None:

@@ -57,6 +57,24 @@ def test_it_is_clean_and_what_students_wrote_stays_text(
     assert_no_sideways_scrolling(page)
 
 
+def test_samples_are_drawn_beside_their_density(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:
+    document = _mixed(steps, tmp_path)
+    page = open_page(write_student_page(document, tmp_path, steps))
+    drawing = page.locator("#step-03").get_by_role("img", name="30 instead of 10; 10 instead of 10; 0 instead of 10")
+    heights = [bar.bounding_box()["height"] for bar in drawing.locator("rect").all()]  # type: ignore[index]
+    line = drawing.locator("path").bounding_box()
+    box = drawing.bounding_box()
+    assert line is not None
+    assert box is not None
+    assert heights == pytest.approx([box["height"], box["height"] / 3, 0, 0], abs=2)
+    middle = line["y"] + line["height"] / 2  # as wide as it is drawn
+    assert middle - box["y"] == pytest.approx(box["height"] * 2 / 3, abs=2)
+    for item in (item for step in document.steps for item in step.hidden if item.histogram):
+        assert item.histogram is not None
+        item.histogram.counts = []
+    assert 'class="spread"' not in student_page(document, tmp_path, steps)
+
+
 def test_a_script_in_the_report_is_stopped_by_its_policy(watched: Watched, steps: list[Step], tmp_path: Path) -> None:
     path = write_student_page(_mixed(steps, tmp_path), tmp_path, steps)
     text = path.read_text(encoding="utf-8").replace("<main", "<script>document.title = 'taken'</script><main")

@@ -17,6 +17,7 @@ from raysteps.judge.functions import AGAIN, Case, Function, Group, functions_of,
 from raysteps.judge.plan import FunctionPlan, Plan
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import MOST_TRIES, RandomSource
+from raysteps.judge.statistics import Uneven
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply
 from raysteps.results.model import CaseGroup, HiddenResult, ImageResult, Termination
 
@@ -293,6 +294,8 @@ def _result(
     found = _first_wrong(judged, wrong)
     if found is not None:
         result.message = shorten(_message(plan.name, groups, wrong, found, _keeps_something(judged)), LONGEST)
+        if isinstance(found.verdict.problem, Uneven):
+            result.histogram = found.verdict.problem.histogram  # a smaller case has too few samples to show it
         alone = found.case.group != AGAIN  # else it may be right when it is asked alone
         if examples is not None and alone and result.share > examples.above:
             place = [one.case for one in judged if one.case.group == found.case.group].index(found.case)

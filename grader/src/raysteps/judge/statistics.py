@@ -10,6 +10,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from raysteps.results.model import Histogram
+
 Numbers = NDArray[np.float64]
 
 SIGNIFICANCE = 1e-13
@@ -107,3 +109,24 @@ def many_alike(rows: Numbers, gap: float) -> bool:
 
 
 _MIN_ALIKE, _ALIKE_SHARE = 20, 0.01
+
+
+# What is told of numbers that are not spread as they ought to be.
+
+_BARS = 16
+
+
+class Uneven(str):
+    """A problem of how numbers are spread, with their histogram."""
+
+    histogram: Histogram
+
+
+def uneven(problem: str, over: str, shares: Numbers, others: Numbers | None = None) -> Uneven:
+    """Of numbers from 0 to 1, which should be even, or spread as others are."""
+    counts, _ = np.histogram(shares, _BARS, (0.0, 1.0))
+    own = np.full(_BARS, 1.0) if others is None else np.histogram(others, _BARS, (0.0, 1.0))[0]
+    expected = [round(float(part), 2) for part in own * len(shares) / own.sum()]
+    found = Uneven(problem)
+    found.histogram = Histogram(over, counts.tolist(), expected)
+    return found

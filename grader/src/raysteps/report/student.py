@@ -35,7 +35,16 @@ from raysteps.report.wording import (
     total_words,
     watch_command,
 )
-from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Total
+from raysteps.results.model import (
+    Diagnosis,
+    HiddenResult,
+    Histogram,
+    ImageResult,
+    Results,
+    StepResult,
+    TestResult,
+    Total,
+)
 from raysteps.results.review import Comment, Review
 from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.results.store import read_results
@@ -258,6 +267,34 @@ def _test(test: TestResult, once: SaidOnce) -> dict[str, object]:
     }
 
 
+_WIDE, _TALL = 320, 96  # a drawing of how numbers are spread
+
+
+def _spread(found: Histogram | None) -> dict[str, object] | None:
+    """Bars for what came, and a line, with steps, for what should come."""
+    if found is None or not found.counts or len(found.counts) != len(found.expected):
+        return None
+    top = max(1.0, *found.counts, *found.expected)
+    width = _WIDE / len(found.counts)
+    heights = [_TALL * count / top for count in found.counts]
+    levels = [round(_TALL - _TALL * part / top, 2) for part in found.expected]
+    parts = range(1, 1 + len(levels))
+    return {
+        "over": clean(found.over),
+        "width": _WIDE,
+        "height": _TALL,
+        "bars": [
+            {"x": round(at * width + 1, 2), "y": round(_TALL - tall, 2), "width": width - 2, "height": round(tall, 2)}
+            for at, tall in enumerate(heights)
+        ],
+        "line": f"M0 {levels[0]}"
+        + "".join(f"V{level}H{width * at:g}" for at, level in zip(parts, levels, strict=True)),
+        "words": "; ".join(
+            f"{count} instead of {part:.0f}" for count, part in zip(found.counts, found.expected, strict=True)
+        ),
+    }
+
+
 def _hidden(item: HiddenResult, has_reference: bool) -> dict[str, object]:
     groups = [replace(group, name=clean(group.name)) for group in item.groups]
     return {
@@ -266,6 +303,7 @@ def _hidden(item: HiddenResult, has_reference: bool) -> dict[str, object]:
         "waits_for": clean(item.waits_for),
         "percent": percent(item.share),
         "message": clean(item.message),
+        "spread": _spread(item.histogram),
         "case": [
             (label, clean(text, _TEXT))
             for label, text in (("Given", item.given), ("Expected", item.expected), ("Got", item.actual))

@@ -104,6 +104,15 @@ class CaseGroup:
 
 
 @dataclass
+class Histogram:
+    """How many numbers fell into each of some equal parts of their range, and how many should, on average."""
+
+    over: Text  # what the numbers are: ends "how they spread"
+    counts: list[Count]
+    expected: list[Amount]
+
+
+@dataclass
 class HiddenResult:
     """What the judge saw of one function (in seeded cases) or of one hidden scene."""
 
@@ -122,6 +131,7 @@ class HiddenResult:
     seconds: Amount = 0.0
     outcome: Termination = "ok"
     waits_for: str = field(default="", metadata=OPTIONAL)  # a function that is not written yet
+    histogram: Histogram | None = field(default=None, metadata=OPTIONAL)  # of samples of another density
 
     @property
     def passed(self) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 
 from raysteps.common.vectors import Vector
 from raysteps.judge.draws import unit_problem
-from raysteps.judge.statistics import Numbers, happens_so_often, has_mean, have_one_mean, is_like, is_uniform
+from raysteps.judge.statistics import Numbers, happens_so_often, has_mean, have_one_mean, is_like, is_uniform, uneven
 
 
 def units(v: Numbers) -> Numbers:
@@ -41,6 +41,8 @@ _FEW, _MANY = 8, 16
 _MANY_NORMALS = 16_384
 _ASKEW = "microfacets do not lean evenly to both sides of the view"
 _NOT_AS_SEEN = "microfacets do not come as often as they are seen"
+_ACROSS = "microfacets from one side of the view to the other, in strips that are seen equally large"
+_UP = "microfacets from those that lean towards the view to those that lean away, in strips that are seen equally large"
 
 
 def _leans_too_much(*, towards: bool) -> str:
@@ -82,12 +84,12 @@ def visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
     bins = _MANY if len(normals) >= _MANY_NORMALS else _FEW
     across, up = shares[:, 0], shares[:, 1]
     if not (is_uniform(across, 4 * bins) and has_mean(across, 0.5, math.sqrt(1 / 12))):
-        return _ASKEW
+        return uneven(_ASKEW, _ACROSS, across)
     if not has_mean(up, 0.5, math.sqrt(1 / 12)):
-        return _leans_too_much(towards=bool(up.mean() < 0.5))
-    if not (is_uniform(up, 4 * bins) and is_uniform(shares, bins)):
-        return _NOT_AS_SEEN
-    return ""
+        return uneven(_leans_too_much(towards=bool(up.mean() < 0.5)), _UP, up)
+    if not is_uniform(up, 4 * bins):
+        return uneven(_NOT_AS_SEEN, _UP, up)
+    return "" if is_uniform(shares, bins) else _NOT_AS_SEEN
 
 
 _TRIES = 20_000  # of the judge's own: what is lost, and what is left
@@ -132,9 +134,12 @@ def rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, e
         return f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
     mine = _seen_shares(normals, view[0], alpha)
     if not have_one_mean(mine[:, 0], own[:, 0]):
-        return _ASKEW
+        return uneven(_ASKEW, _ACROSS, mine[:, 0], own[:, 0])
     if not have_one_mean(mine[:, 1], own[:, 1]):
-        return _leans_too_much(towards=bool(mine[:, 1].mean() < own[:, 1].mean()))
+        problem = _leans_too_much(towards=bool(mine[:, 1].mean() < own[:, 1].mean()))
+        return uneven(problem, _UP, mine[:, 1], own[:, 1])
     bins = _MANY if count >= _MANY_NORMALS else _FEW
-    even = all(is_like(mine[:, [i]], own[:, [i]], 4 * bins) for i in range(2)) and is_like(mine, own, bins)
-    return "" if even else _NOT_AS_SEEN
+    for i, over in enumerate((_ACROSS, _UP)):
+        if not is_like(mine[:, [i]], own[:, [i]], 4 * bins):
+            return uneven(_NOT_AS_SEEN, over, mine[:, i], own[:, i])
+    return "" if is_like(mine, own, bins) else _NOT_AS_SEEN

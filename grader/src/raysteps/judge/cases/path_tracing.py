@@ -45,7 +45,7 @@ from raysteps.judge.protocol import (
 )
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import MOST_ASKED, MisScript, PathHit, PathScript, Scatter
-from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform
+from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform, uneven
 
 # Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
 # compared with the reference's. Seen from above the tip of such a direction lies anywhere in the unit disk, all places
@@ -77,11 +77,13 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     bins = _MANY if len(directions) >= _MANY_DIRECTIONS else _FEW
     heights, turns = shares[:, 0], shares[:, 1]
     if not (is_uniform(turns, 4 * bins) and has_mean(turns, 0.5, math.sqrt(1 / 12))):
-        return "directions do not come evenly from all sides around the normal"
+        problem = "directions do not come evenly from all sides around the normal"
+        return uneven(problem, "directions around the normal, side by side", turns)
+    over = "directions from steep to level, in rings that should get the same number of them"
     if not has_mean(heights, 0.5, math.sqrt(1 / 12)):
-        return f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often"
+        return uneven(f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often", over, heights)
     if not is_uniform(heights, 4 * bins):
-        return "some heights come more often than others"
+        return uneven("some heights come more often than others", over, heights)
     return "" if is_uniform(shares, bins) else "height and side of a direction have to do with each other"
 
 

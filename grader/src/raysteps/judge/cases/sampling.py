@@ -22,7 +22,7 @@ from raysteps.judge.answers import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text, whole_of
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_uniform, many_alike
+from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_uniform, many_alike, uneven
 
 # Stratified samples. Every order of the points is right, and every way to draw them: so no answer is compared with the
 # reference's, but each is tested for what the contract promises. The worker asks `times` times, each time with another
@@ -107,9 +107,10 @@ def _problem_of_squares(shares: Numbers) -> str:
             return _STREAMS
     points = shares.reshape(-1, 2)
     bins = _MANY if len(points) >= _MANY_POINTS else _FEW
-    ways = (points[:, 0], points[:, 1])
-    if not all(is_uniform(way, 2 * bins) and has_mean(way, 0.5, math.sqrt(1 / 12)) for way in ways):
-        return "the points do not lie everywhere in their squares, all places equally likely"
+    for axis, way in zip("xy", points.T, strict=True):
+        if not (is_uniform(way, 2 * bins) and has_mean(way, 0.5, math.sqrt(1 / 12))):
+            problem = "the points do not lie everywhere in their squares, all places equally likely"
+            return uneven(problem, f"{axis} of the points, from one side of their squares to the other", way)
     if not is_uniform(points, bins):
         return "x and y of a point have to do with each other"
     if any(_are_dependent(*pair) for pair in _pairs(shares)):

@@ -40,7 +40,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
-from raysteps.judge.statistics import Numbers, has_mean, is_uniform
+from raysteps.judge.statistics import Numbers, has_mean, is_uniform, uneven
 
 # Many answers to one question: rows of numbers, and what the first u gave once more.
 
@@ -96,6 +96,8 @@ class _Places:
     high: str
     uneven: str
     around: str  # the second number is uneven
+    way: str  # what the first number is
+    way_around: str
 
 
 _DISK = _Places(
@@ -103,18 +105,24 @@ _DISK = _Places(
     "too many points lie near the rim",
     "some rings get more points than others of the same area",
     "some sides get more points than others",
+    "points from the middle to the rim, in rings of one area",
+    "points around the middle, side by side",
 )
 _CAP = _Places(
     "too many points lie near the middle of what can be seen",
     "too many points lie near the rim of what can be seen",
     "some rings get more points than others of the same solid angle",
     "some sides get more points than others",
+    "points from the middle of what can be seen to its rim, in rings of one solid angle",
+    "points around the middle, side by side",
 )
 _TRIANGLE = _Places(
     "too many points lie near the first corner",
     "too many points lie away from the first corner",
     "points are not spread evenly from the first corner to the side opposite to it",
     "points are not spread evenly between the second and the third corner",
+    "points from the first corner to the side opposite to it, in strips of one area",
+    "points from the side of the second corner to that of the third",
 )
 
 
@@ -128,11 +136,11 @@ def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
     along, around = shares[:, 0], shares[:, 1]
     deviation = math.sqrt(1 / 12)
     if not has_mean(along, 0.5, deviation):
-        return places.low if float(along.mean()) < 0.5 else places.high
+        return uneven(places.low if float(along.mean()) < 0.5 else places.high, places.way, along)
     if not is_uniform(along, 2 * bins):
-        return places.uneven
+        return uneven(places.uneven, places.way, along)
     if not (has_mean(around, 0.5, deviation) and is_uniform(around, 2 * bins)):
-        return places.around
+        return uneven(places.around, places.way_around, around)
     return "" if is_uniform(shares, bins) else "the two random numbers have to do with each other"
 
 
