@@ -143,7 +143,8 @@ class Assembly:
         def one(step: Step) -> None:
             say(f"compiling the headers of step {step.number} for later")
             headers = included(pristine_stub(self._project, step))
-            precompile(self._description, self._folder / "include", headers, self._folder / "precompiled")
+            if headers:
+                precompile(self._description, self._folder / "include", headers, self._folder / "precompiled")
 
         with ThreadPoolExecutor(min(_COMPILERS, os.cpu_count() or 1)) as pool:
             list(pool.map(one, self._steps))

@@ -199,10 +199,10 @@ def link_placeholder(description: Description, names: Sequence[str], library: Pa
 
 
 def precompile(description: Description, include: Path, headers: Sequence[str], folder: Path) -> None:
-    """What a stub includes, the contract first, as g++ keeps it in memory: it takes that from `folder` where a file
-    includes the contract before anything else, and saves more than half of the time."""
-    contract = headers[0].strip('"')
-    whole, source = folder / f"{contract}.gch", folder / f"{contract}.all"
+    """What a stub includes, most often the contract first, as g++ keeps it in memory: it takes that from `folder` where
+    a file begins with the same header, and saves more than half of the time."""
+    first = headers[0].strip('<">')
+    whole, source = folder / f"{first}.gch", folder / f"{first}.all"
     write_bytes(source, "".join(f"#include {header}\n" for header in headers).encode())
     words = [description.compiler, *description.compile_flags]
     words += include_words(description, str(include), list(map(str, description.more_includes)))
