@@ -18,6 +18,7 @@ from tools.bench.programs import ask_pinned, checked, portable
 from tools.bench.render import RenderOptions, bench_render
 from tools.bench.scale import ScaleOptions, bench_scale
 from tools.bench.tables import median, quartiles, terminal_table
+from tools.bench.waits import WaitsOptions, bench_waits
 
 # How fast scenes are read.
 
@@ -123,6 +124,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
     _add_rounds(add, 5)
 
+    add = commands.add_parser("waits", help="how long a person waits, from the first picture to the grades of a class")
+    _add_rounds(add, 5)
+    words = "in the class (120)"
+    add.add_argument("--submissions", type=_number(1, 1000), default=120, metavar="N", help=words)
+
     add = commands.add_parser("boxes", help="what boxes save, against testing every surface")
     add.add_argument("--scenes", nargs="*", type=Path, default=[], metavar="FILE", help="more scenes to measure")
     add.add_argument("--size", default="256x256", metavar="WxH", help="pixels of each picture (256x256)")
@@ -152,6 +158,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             return bench_parse(project, given.scenes, given.rounds, console)
         case "loop":
             return bench_loop(project, given.steps, given.rounds, console)
+        case "waits":
+            return bench_waits(project, WaitsOptions(given.rounds, given.submissions), console)
         case "boxes":
             return boxes(project, given.scenes, given.size, console)
         case "grading":

@@ -28,6 +28,7 @@ from tools.bench.model import (
     ScaleRow,
     SceneRays,
     ThreadsNumbers,
+    WaitsNumbers,
     geometric_mean,
     kept,
     mean_costs,
@@ -178,6 +179,22 @@ def loop_tables(document: LoopNumbers) -> str:
     return f"{machine_line(document.machine)}\n\n{markdown(('step', 'seconds'), rows)}"
 
 
+def waits_tables(document: WaitsNumbers) -> str:
+    """One line for each thing that is waited for."""
+    rows = [
+        (
+            f"`{row.what}`" if " " not in row.what or row.what.startswith("hint") else row.what,
+            str(len(row.seconds.rounds)),
+            f"{row.seconds.min:.2f}",
+            f"{row.seconds.median:.2f}",
+            median(row.processor_seconds, 2),
+        )
+        for row in document.rows
+    ]
+    heads = ("way", "times", "least, s", "median, s", "of processors, s")
+    return f"{machine_line(document.machine)}\n\n{markdown(heads, rows)}"
+
+
 def boxes_tables(document: BoxesNumbers) -> str:
     """What boxes save."""
     rows = [
@@ -314,6 +331,7 @@ def parts_of(project: Project) -> dict[str, str | None]:
         "threads": _part(project, ThreadsNumbers, threads_tables, _THREADS),
         "parse": _part(project, ParseNumbers, parse_tables),
         "loop": _part(project, LoopNumbers, loop_tables),
+        "waits": _part(project, WaitsNumbers, waits_tables),
     }
 
 

@@ -73,7 +73,7 @@ def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
                 _must([build / "bin" / "raytrace-mine", root / case.scene, *case.args, "-o", picture, "--quiet"], root)
 
 
-def _class_of(project: Project, folder: Path, size: int) -> Path:
+def class_of(project: Project, folder: Path, size: int) -> Path:
     for number in range(size):
         shutil.copytree(project.samples / "complete", folder / f"student-{number:03d}")
     return folder
@@ -106,7 +106,7 @@ def grading(project: Project, rounds: int, console: Console) -> int:
         build_kit(project, progress(console, status))
     costs: list[Cost] = []
     with tempfile.TemporaryDirectory(prefix="raysteps-bench-") as name:
-        submissions = _class_of(project, Path(name) / "class", _CLASS_SIZE)
+        submissions = class_of(project, Path(name) / "class", _CLASS_SIZE)
         for number in range(rounds):
             with console.status(f"round {number + 1} of {rounds}"):
                 plain = partial(plain_way, project, steps, project.samples / "complete")
@@ -128,7 +128,7 @@ _LOOP_SECONDS = 1800
 _START = "import sys; sys.path.insert(0, sys.argv.pop(1)); from raysteps.cli.app import main; sys.exit(main())"
 
 
-def _copy(project: Project, root: Path) -> Project:
+def copy_with_solutions(project: Project, root: Path) -> Project:
     """A kit of its own, so that nobody's files are changed. Its steps are the solutions."""
     for file in kit_files(project):
         target = root / file.place
@@ -143,15 +143,19 @@ def _copy(project: Project, root: Path) -> Project:
     return Project(root)
 
 
+def started_in(kit: Project, *words: str | Path) -> list[str | Path]:
+    """The words that start a command of that kit, with the Python that runs here."""
+    return [sys.executable, "-P", "-c", _START, kit.root / "grader" / "src", *words]
+
+
 def _check(copy: Project, step: Step) -> Outcome:
-    words: list[str | Path] = [sys.executable, "-P", "-c", _START, copy.root / "grader" / "src", "check", step.number]
-    outcome = run(words, seconds=_LOOP_SECONDS, cwd=copy.root)
+    outcome = run(started_in(copy, "check", step.number), seconds=_LOOP_SECONDS, cwd=copy.root)
     if outcome.code != 0 or outcome.timed_out:
         raise GraderFault(f"raysteps check {step.number} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
     return outcome
 
 
-def _edit(copy: Project, step: Step, number: int) -> None:
+def edit(copy: Project, step: Step, number: int) -> None:
     source = copy.root / "steps" / step.path
     with source.open("a", encoding="utf-8") as file:
         file.write(f"// changed for the {number}. time\n")
@@ -161,7 +165,7 @@ def _measured_loop(copy: Project, step: Step, rounds: int) -> LoopRow:
     _check(copy, step)  # builds the kit, which is not done again for a changed step
     seconds = []
     for number in range(1, rounds + 1):
-        _edit(copy, step, number)
+        edit(copy, step, number)
         seconds.append(_check(copy, step).seconds)
     return LoopRow(step.id, Spread.of(seconds))
 
@@ -171,7 +175,7 @@ def bench_loop(project: Project, steps: list[str], rounds: int, console: Console
     chosen = choose(read_steps(project), steps)
     rows = []
     with tempfile.TemporaryDirectory(prefix="raysteps-loop-") as name:
-        copy = _copy(project, Path(name))
+        copy = copy_with_solutions(project, Path(name))
         for step in chosen:
             with console.status(f"changing and checking step {step.id}"):
                 rows.append(_measured_loop(copy, step, rounds))

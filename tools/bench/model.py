@@ -246,7 +246,7 @@ class ScaleNumbers:
     growth: list[GrowthRow]
 
 
-# bench threads, parse, loop, boxes and grading
+# bench threads, parse, loop, waits, boxes and grading
 
 
 @dataclass(frozen=True)
@@ -307,6 +307,25 @@ class LoopNumbers:
     schema: Literal["raysteps/bench-loop/v1"] = "raysteps/bench-loop/v1"
     machine: Machine
     rows: Annotated[list[LoopRow], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class WaitsRow:
+    """One thing that is waited for."""
+
+    what: str
+    seconds: Spread
+    processor_seconds: Spread | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class WaitsNumbers:
+    """How long a person waits."""
+
+    name: ClassVar[str] = "waits"
+    schema: Literal["raysteps/bench-waits/v1"] = "raysteps/bench-waits/v1"
+    machine: Machine
+    rows: Annotated[list[WaitsRow], Meta(min_length=1)]
 
 
 @dataclass(frozen=True)
@@ -383,6 +402,7 @@ Numbers = (
     | ThreadsNumbers
     | ParseNumbers
     | LoopNumbers
+    | WaitsNumbers
 )
 
 

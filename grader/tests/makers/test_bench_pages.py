@@ -8,8 +8,8 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.course.project import Project
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
-from tools.bench.docs import replace_part
-from tools.bench.model import Numbers, RayKinds, SceneRays, Spread, StructureTimes
+from tools.bench.docs import replace_part, waits_tables
+from tools.bench.model import Machine, Numbers, RayKinds, SceneRays, Spread, StructureTimes, WaitsNumbers, WaitsRow
 from tools.bench.render import against_embree, names_of
 from tools.bench.tables import markdown
 
@@ -70,6 +70,19 @@ def test_the_page_has_a_part_for_each_benchmark(project: Project) -> None:
     page = (project.root / "docs" / "benchmarks.md").read_text(encoding="utf-8")
     for kind in get_args(Numbers):
         assert "\nnew\n" in replace_part(page, kind.name, "new")
+
+
+def test_what_is_waited_for_is_told_by_the_least_and_the_median() -> None:
+    here = Machine("a processor", 2, "Linux x86_64", "GNU 12", "-O3", pinned=True)
+    rows = [
+        WaitsRow("hint 01", Spread.of([0.3, 0.1, 0.2]), Spread.of([0.2, 0.2, 0.4])),
+        WaitsRow("watch 01, from a save to tests and pictures", Spread.of([1.0]), None),
+    ]
+    lines = waits_tables(WaitsNumbers(machine=here, rows=rows)).splitlines()
+    assert lines[-2:] == [
+        "| `hint 01` | 3 | 0.10 | 0.20 | 0.20 |",
+        "| watch 01, from a save to tests and pictures | 1 | 1.00 | 1.00 |  |",
+    ]
 
 
 def test_ratios_are_those_of_the_same_scene() -> None:
