@@ -70,7 +70,8 @@ def include(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(path.name)
     monkeypatch.setattr(web_kit, "Sources", lambda _project: _Installed(include))
-    monkeypatch.setattr(web_kit, "read_all_steps", lambda _project: [])
+    for name in ("read_all_steps", "course_steps"):
+        monkeypatch.setattr(web_kit, name, lambda _project: [])
     return include
 
 

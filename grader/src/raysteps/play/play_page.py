@@ -8,6 +8,7 @@ import re
 import shutil
 import tarfile
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
@@ -29,7 +30,7 @@ from raysteps.images.noise import read_estimates, with_samples
 from raysteps.images.render import ENDLESS, reference_image_path, stored_parts
 from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
-from raysteps.play.web_kit import WebKit, headers_path
+from raysteps.play.web_kit import MOST_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
 from raysteps.report.wording import inspect_options
 
@@ -211,8 +212,11 @@ class PlayPage:
         steps = course_steps(self._project)
         parts = self._kit.parts()
         self._say("packing the compiler and its headers")
+        with ThreadPoolExecutor(MOST_AT_ONCE) as pool:
+            clang = pool.submit(_squeezed, self._clang.wasm)
+            compiled = {step.number: one for step, one in zip(steps, pool.map(self._compiled, steps), strict=True)}
         kit = {
-            "clang": self._add("clang.wasm.gz", _squeezed(self._clang.wasm)),
+            "clang": self._add("clang.wasm.gz", clang.result()),
             "system": self._add("system.tar.gz", packed(_system(self._clang, self._kit, self._project))),
             "parts": self._add("kit.tar.gz", packed(parts.files)),
             "objects": parts.objects,
@@ -221,7 +225,7 @@ class PlayPage:
             "compile": self._kit.step_command(),
             "headers": self._kit.headers_command(),
             "link": self._clang.link_command(),
-            "steps": {step.number: self._compiled(step) for step in steps},
+            "steps": compiled,
         }
         words = {
             "endless": ENDLESS.partition("?")[0] + "?",

@@ -17,12 +17,12 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
-from raysteps.course.manifest import Step, read_all_steps
+from raysteps.course.manifest import Step, course_steps, read_all_steps
 from raysteps.course.project import Project
 from raysteps.play.packages import CATCH2, fetch_header, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.toolchain.build_kit import read_given_tests, tested_functions
-from raysteps.toolchain.catch2 import parse_report
+from raysteps.toolchain.catch2 import TestOutcome, parse_report
 from raysteps.toolchain.cmake import release_tree
 
 # Folders by the names that the compiler knows them by, here and in the page.
@@ -34,7 +34,9 @@ _QUIET = "-w"  # the native build warns about what it compiles, too
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
 _TESTING = (_QUIET, "-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
 _MAIN = "-Dmain="
-_EXCEPTIONS = "framework/web/exceptions.cpp"  # which all programs need
+_WEB = "framework/web"
+_EXCEPTIONS = f"{_WEB}/exceptions.cpp"  # which all programs need
+_PAGE_MAIN, _FIGURES_MAIN = f"{_WEB}/main.cpp", f"{_WEB}/figures_main.cpp"
 _TEST_MAIN, _RAYTRACE = f"{_MAIN}test_main", (_QUIET, f"{_MAIN}raytrace_main")
 # Libraries that are headers only: the folder or file of each, and where packages put it.
 _HEADERS = {
@@ -44,8 +46,9 @@ _HEADERS = {
     "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h"),
 }
 _USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
-_MOST_AT_ONCE = 4  # each takes some 300 MB
-# What many sources include is read once, in a quarter of the time, as by cmake/precompiled.cmake. Steps stay plain.
+MOST_AT_ONCE = min(4, os.cpu_count() or 1)  # each takes some 300 MB
+# What many sources include is read once, in a quarter of the time, as by cmake/precompiled.cmake. What a student writes
+# is compiled as if there were none.
 _COMMON = "algorithm cmath filesystem functional map memory optional sstream string variant vector core/scene.hpp"
 _KIT_HEADERS = "".join(f"#include <{header}>\n" for header in _COMMON.split())
 _PORTABLE = ("-fno-pch-timestamp", "-fpch-instantiate-templates")  # the same for the same headers, wherever they lie
@@ -68,6 +71,11 @@ class Wanted:
     level: str = "-O2"
     flags: tuple[str, ...] = (_QUIET,)
     headers: str = ""  # that are precompiled
+
+
+def _own(path: str) -> Wanted:
+    """What only the page has, so that no other compiler warns about it."""
+    return Wanted(Source(path), flags=(*_WARNINGS, "-Werror"), headers=_KIT_HEADERS)
 
 
 def _words_of(entry: Mapping[str, str]) -> list[str]:
@@ -155,6 +163,7 @@ class WebKit:
         self._say = say
         self._sources = Sources(project)
         self.steps = read_all_steps(project)
+        self._shown = course_steps(project)
         self.model = "reference" if project.has_reference else "stub"
         self._cache = clang.cache
         self._used: set[Path] = set()
@@ -218,7 +227,7 @@ class WebKit:
     def _commands(self) -> dict[tuple[str, bool], list[str]]:
         return {
             (level, header): self._clang.compile_command(level, [], header=header)
-            for level, header in itertools.product(("-O2", "-O1"), (False, True))
+            for level, header in itertools.product(("-O2", "-O1", "-Oz"), (False, True))
         }
 
     def _made(self, wanted: Wanted) -> Path:
@@ -232,8 +241,8 @@ class WebKit:
 
     def _precompiled(self, wanted: Wanted) -> Path:
         """The headers of a source, as the compiler keeps them in memory. Their text has to stay beside that."""
-        flags = [flag for flag in wanted.flags if not flag.startswith(_MAIN)]
-        words = [*self._commands[wanted.level, True], *_INCLUDES, *flags, *_PORTABLE]
+        defined = [flag for flag in wanted.flags if flag.startswith("-D") and not flag.startswith(_MAIN)]
+        words = [*self._commands[wanted.level, True], *_INCLUDES, _QUIET, *defined, *_PORTABLE]
         text = self._kept("hpp", wanted.headers)
         with self._turn:
             if not text.is_file():
@@ -269,24 +278,28 @@ class WebKit:
         """What is to be made, by the name of the part that it belongs to."""
         of = self._sources.of
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
-        paths = sorted((self._project.root / "framework" / "web").glob("*.cpp"))
-        web = [Wanted(Source(self._name(path)), flags=(*_WARNINGS, "-Werror")) for path in paths]
+        paths = sorted((self._project.root / _WEB).glob("*.cpp"))
+        own = [self._name(path) for path in paths]
+        beside = (_EXCEPTIONS, _PAGE_MAIN, _FIGURES_MAIN)
         raytrace = of("raytrace-app")
         inspect = [*of("inspect-app"), *of("raysteps-inspect-recorded"), *of("raysteps-inspect")]
         parts = {
-            "web": [one for one in web if one.source.path != _EXCEPTIONS],
-            "exceptions": [one for one in web if one.source.path == _EXCEPTIONS],
+            "web": [_own(_PAGE_MAIN)],
+            "exceptions": [_own(_EXCEPTIONS)],
             "inspect": [Wanted(source, headers=_KIT_HEADERS) for source in inspect if source not in raytrace],
             "kit": [
                 *(Wanted(source, headers=_KIT_HEADERS) for source in libraries),
+                *(_own(name) for name in own if name not in beside),
                 *(Wanted(source, flags=_RAYTRACE, headers=_KIT_HEADERS) for source in raytrace),
-                *(Wanted(source, "-O1", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
+                *(Wanted(source, "-Oz", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
             ],
         }
         for step in self.steps:
-            tests, own = of(f"test-{step.number}-objects"), of(f"step-{step.number}-{self.model}-raw")
+            model = of(f"step-{step.number}-{self.model}-raw")
+            parts[f"step-{step.number}"] = [Wanted(source, headers=_KIT_HEADERS) for source in model]
+        for step in self._shown:
+            tests = of(f"test-{step.number}-objects")
             parts[f"test-{step.number}"] = [Wanted(source, "-O1", _TESTING, _TEST_HEADERS) for source in tests]
-            parts[f"step-{step.number}"] = [Wanted(source) for source in own]
         if not all(parts.values()):
             raise GraderFault("CMake's list of commands lacks parts of the kit")
         return parts
@@ -297,7 +310,7 @@ class WebKit:
         parts = self._wanted()
         total, done = sum(map(len, parts.values())), 0
         _ = self._commands, self._places, self._common_mark  # before several ask for them at once
-        with ThreadPoolExecutor(min(_MOST_AT_ONCE, os.cpu_count() or 1)) as pool:
+        with ThreadPoolExecutor(MOST_AT_ONCE) as pool:
             waiting = {name: [pool.submit(self._made, one) for one in some] for name, some in parts.items()}
             made: dict[str, list[Path]] = {}
             for name, some in waiting.items():
@@ -347,10 +360,9 @@ class WebKit:
         """How these are compiled; the page does it, too, when a student includes something else."""
         return [*self._commands["-O2", True], *_INCLUDES, *_WARNINGS, *_PORTABLE]
 
-    def _program(self, step: Step) -> Path:
-        """With the visible tests of the step; every step is the model's."""
-        names = ["web", "exceptions", *(f"step-{other.number}" for other in self.steps), f"test-{step.number}"]
-        inputs = [*(path for name in names for path in self._objects[name]), self._archive]
+    def _linked(self, inputs: Sequence[Path]) -> Path:
+        """A program of these objects and of what they need of the framework."""
+        inputs = [*inputs, self._archive]
         target = self._kept("wasm", *(path.name for path in inputs))
         if not target.is_file():
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -362,35 +374,57 @@ class WebKit:
                 write_bytes(target, (Path(folder) / "made").read_bytes())
         return target
 
-    def _ran(self, step: Step, words: Sequence[str], made: str, scene: Path | None = None, option: str = "-o") -> Path:
+    @property
+    def _model(self) -> list[Path]:
+        """The objects of every step, and what they need in a browser."""
+        names = ["exceptions", *(f"step-{step.number}" for step in self.steps)]
+        return [path for name in names for path in self._objects[name]]
+
+    @cached_property
+    def _program(self) -> Path:
+        """With all visible tests; every step is the model's."""
+        tests = [path for step in self._shown for path in self._objects[f"test-{step.number}"]]
+        return self._linked([*self._objects["web"], *self._model, *tests])
+
+    def figures(self) -> Path:
+        """A program of the live figures alone; every step is the model's."""
+        model = self._model  # before: it says what is being compiled
+        return self._linked([self._made(_own(_FIGURES_MAIN)), *model])
+
+    def _ran(self, words: Sequence[str], made: str, scene: Path | None = None, option: str = "-o") -> Path:
         """The file that the reference's program makes, by that option."""
-        program = self._program(step)
         content = "" if scene is None else scene.read_text("utf-8")
-        target = self._kept(made, program.name, *words, content)
+        target = self._kept(made, self._program.name, *words, content)
         if not target.is_file():
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
                 (Path(folder) / "scene.nff").write_text(content, encoding="utf-8")
-                said = self._clang.program(program, [*words, option, f"{_WORK}/{made}"], {_WORK: Path(folder)})
+                said = self._clang.program(self._program, [*words, option, f"{_WORK}/{made}"], {_WORK: Path(folder)})
                 if said.code != 0:
                     raise GraderFault(f"the reference fails in the page's program: {said.stderr.strip()}")
                 write_bytes(target, (Path(folder) / made).read_bytes())
         return target
 
+    @cached_property
+    def _outcomes(self) -> list[TestOutcome]:
+        cases = parse_report(self._ran(["test", "-r", "xml"], "xml").read_bytes())
+        if not cases or not all(case.passed for case in cases):
+            failed = next((case.name for case in cases or () if not case.passed), "all")
+            raise GraderFault(f"the reference fails its own tests in the page's program: {failed}")
+        return cases
+
     def tests(self, step: Step) -> Mapping[str, Sequence[str]]:
         """The visible tests, each with the functions that it tests."""
         if not self._project.has_reference:
             return read_given_tests(self._project)[step.id]
-        cases = parse_report(self._ran(step, ["test", "-r", "xml"], "xml").read_bytes())
-        if not cases or not all(case.passed for case in cases):
-            raise GraderFault(f"step {step.number}: the reference fails its own tests in the page's program")
-        return {case.name: tested_functions(step, case.name, case.tags) for case in cases}
+        own = [case for case in self._outcomes if step.id in case.tags]
+        return {case.name: tested_functions(step, case.name, case.tags) for case in own}
 
     def picture(self, scene: Path, args: Sequence[str]) -> Path:
         """The reference's, as raytrace writes it."""
         words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet"]
-        return self._ran(self.steps[0], words, "ppm", scene)
+        return self._ran(words, "ppm", scene)
 
     def estimates(self, scene: Path, args: Sequence[str]) -> Path:
         """Of the same picture, with `--estimates`."""
         words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet", "-o", f"{_WORK}/picture.ppm"]
-        return self._ran(self.steps[0], words, "estimates", scene, "--estimates")
+        return self._ran(words, "estimates", scene, "--estimates")
