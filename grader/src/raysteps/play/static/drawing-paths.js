@@ -26,16 +26,7 @@ export const COSINE = {
       box: [-0.4, -0.05, 1.4, 1.05],
       handles: [handle("u", "x", "y")],
       draw: (view, _, { others }) => {
-        view.line(
-          [
-            [0, 0],
-            [1, 0],
-            [1, 1],
-            [0, 1],
-            [0, 0],
-          ],
-          "edge",
-        );
+        view.outline([0, 0], [1, 1], "edge");
         view.dots(others, "point", 1.5);
       },
     },

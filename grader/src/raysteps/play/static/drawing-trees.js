@@ -2,20 +2,6 @@ import { along, flat, handle, list, place, said } from "./drawing-words.js";
 
 // Step 06. From above: x to the right, z up, in the plane in which the balls lie.
 
-/** The outline of a box. */
-function outline(view, [[x, , z], [x1, , z1]], look) {
-  view.line(
-    [
-      [x, z],
-      [x1, z],
-      [x1, z1],
-      [x, z1],
-      [x, z],
-    ],
-    look,
-  );
-}
-
 export const OCTREE = {
   name: "octree",
   title: "Your octree and a ray",
@@ -36,19 +22,12 @@ export const OCTREE = {
       box: [-3.3, -1.5, 1.7, 3.3],
       handles: [handle("Origin of the ray", "x", "z"), handle("Where the ray is aimed at", "aimX", "aimZ")],
       draw: (view, { x, z }, { balls, entered, direction, distance }) => {
-        outline(
-          view,
-          [
-            [-1, 0, -1],
-            [1, 0, 1],
-          ],
-          "edge",
-        );
+        view.outline([-1, -1], [1, 1], "edge");
         for (const [low, high, enter] of entered) {
           if (distance < 0 || enter <= distance) {
             view.area(flat(low), flat(high));
           }
-          outline(view, [low, high], "faint");
+          view.outline(flat(low), flat(high), "faint");
         }
         for (const ball of balls) {
           view.circle(flat(ball), 0.03, "thin");
@@ -102,15 +81,12 @@ export const CUTS = {
         },
       ],
       draw: (view, { cut }, { boxes, left, right, costs, cost }) => {
-        const fromAbove = ([[x, y], [x1, y1]]) => [
-          [x, 0, y],
-          [x1, 0, y1],
-        ];
+        const outline = ([low, high], look) => view.outline(low.slice(0, 2), high.slice(0, 2), look);
         for (const box of boxes) {
-          outline(view, fromAbove(box), "faint");
+          outline(box, "faint");
         }
-        outline(view, fromAbove(left), "ray");
-        outline(view, fromAbove(right), "axis");
+        outline(left, "ray");
+        outline(right, "axis");
         view.segment([cut, -0.3], [cut, 2.2], "miss");
         const height = (one) => -2.5 + 0.16 * one;
         view.segment([0, -2.5], [4, -2.5], "faint");

@@ -66,6 +66,17 @@ class View {
     this.#add("polyline", look, { points: places.join(" ") });
   }
 
+  /** A rectangle between two corners. */
+  outline([x, y], [x1, y1], look) {
+    const corners = [
+      [x, y],
+      [x1, y],
+      [x1, y1],
+      [x, y1],
+    ];
+    this.line([...corners, corners[0]], look);
+  }
+
   segment(from, to, look) {
     this.line([from, to], look);
   }
