@@ -43,9 +43,22 @@ void ball(const Fill& fill, const Light& light, JsonWriter& json) {
     json.key("ball").text(pixels.text());
 }
 
-/// A ball on a slanted floor, around coordinates where neighbouring floats lie farther apart, in low light.
-Scene ball_on_floor() {
-    constexpr glm::vec3 k_middle{100.0F, 100.0F, 100.0F};
+constexpr glm::vec3 k_middle{100.0F, 100.0F, 100.0F};  // where neighbouring floats lie farther apart
+
+glm::vec3 above_floor(float x, float y, float height) {
+    return k_middle + glm::vec3(x, y, 0.13F * x + 0.07F * y + height);
+}
+
+/// A strip of the floor's length from y to far_y, as high as this, that stands across the light.
+void add_strip(Scene& scene, float x, float y, float far_y, float height, const Fill& fill) {
+    const glm::vec3 foot = above_floor(x, y, -0.01F);
+    const glm::vec3 top = above_floor(x, far_y, height);
+    scene.add(std::make_unique<Triangle>(foot, above_floor(x, far_y, -0.01F), top, fill));
+    scene.add(std::make_unique<Triangle>(foot, top, above_floor(x, y, height), fill));
+}
+
+/// A ball and two low strips on a slanted floor, in low light.
+Scene ball_and_strips() {
     Scene scene;
     scene.camera.from = k_middle + glm::vec3(-2.0F, -4.0F, 3.0F);
     scene.camera.at = k_middle + glm::vec3(-0.7F, 0.0F, 0.2F);
@@ -55,10 +68,11 @@ Scene ball_on_floor() {
     scene.camera.height = 48;
     scene.lights = {{k_middle + glm::vec3(12.0F, 0.0F, 5.0F), k_white}};
     const Fill matte{.color = {1.0F, 0.8F, 0.5F}, .kd = 1.0F};
-    scene.add(std::make_unique<Triangle>(k_middle + glm::vec3(-30.0F, -20.0F, -5.3F),
-                                         k_middle + glm::vec3(30.0F, -20.0F, 2.5F),
-                                         k_middle + glm::vec3(0.0F, 50.0F, 3.5F), matte));
-    scene.add(std::make_unique<Sphere>(k_middle + glm::vec3(-0.0514F, -0.0277F, 0.3957F), 0.4F, matte));
+    scene.add(std::make_unique<Triangle>(above_floor(-30.0F, -20.0F, 0.0F), above_floor(30.0F, -20.0F, 0.0F),
+                                         above_floor(0.0F, 50.0F, 0.0F), matte));
+    scene.add(std::make_unique<Sphere>(above_floor(-0.0514F, -0.0277F, 0.404F), 0.4F, matte));
+    add_strip(scene, 0.1F, -1.6F, -0.5F, 0.09F, matte);
+    add_strip(scene, -0.9F, -1.2F, 1.6F, 0.025F, matte);
     return scene;
 }
 
@@ -72,7 +86,7 @@ HitRecord with_start_at(float threshold, const HitRecord& hit, const Light& ligh
 
 /// The picture with this threshold, and how many pixels are darker or brighter than with the student's own.
 void threshold_picture(float threshold, JsonWriter& json) {
-    const Scene scene = ball_on_floor();
+    const Scene scene = ball_and_strips();
     const Light& light = scene.lights.front();
     const std::unique_ptr<Accelerator> query = linear_accelerator(scene.surfaces());
     const ViewFrame frame = view_frame(scene.camera);

@@ -62,9 +62,9 @@ export const SHADOW = {
   name: "shadow",
   title: "Your shadow ray and its threshold",
   intro:
-    "The hit, the light and the ball of the worked example, with what your shadow_ray and is_lit say, and a ball on a " +
-    "floor at coordinates around 100. Your functions are given hits that are moved along the normal, so that your " +
-    "shadow rays start as far off the surface as you set here.",
+    "The hit, the light and the ball of the worked example, with what your shadow_ray and is_lit say, and a ball and " +
+    "two low strips, 0.09 and 0.025 high, on a floor at coordinates around 100. Your functions are given hits that " +
+    "are moved along the normal, so that your shadow rays start as far off the surface as you set here.",
   numbers: {
     threshold: {
       label: "Threshold",
@@ -95,7 +95,7 @@ export const SHADOW = {
       },
     },
     {
-      label: "A ball on a floor, in low light from the right",
+      label: "A ball and two low strips on a floor, in low light from the right",
       box: [-4, -3, 4, 3],
       handles: [],
       draw: (view, _, { picture }) => view.picture([-4, 3], [4, -3], picture, 64),
@@ -104,5 +104,6 @@ export const SHADOW = {
   says: (_, { start, direction, lit, darker, brighter }) =>
     `The shadow ray starts at ${list(start)} along ${list(direction)}: ${lit ? "lit" : "in shadow"}. ` +
     `Of the picture's 3072 pixels, ${said(darker)} are dark and ${said(brighter)} lit that are not so with your own ` +
-    `threshold${darker > 100 ? ": dark speckles are shadow acne" : ""}.`,
+    `threshold.${darker > 100 ? " Dark speckles are shadow acne." : ""}` +
+    (brighter > 60 ? " What is lower than the threshold throws no shadow." : ""),
 };
