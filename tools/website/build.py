@@ -1,8 +1,8 @@
 """Runs Sphinx on what was staged."""
 
 import io
-import json
 import os
+import re
 import shutil
 import sys
 from collections.abc import Collection, Mapping
@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import write_json
 from raysteps.common.markdown import Block, mathml, with_tags, with_targets
+from raysteps.common.owned_folder import OwnedFolder
+from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project, here
 from tools.website.documents import below, documents, front_page, is_elsewhere, is_shell, sections, split
+from tools.website.live_figures import LiveFigures
 
 # What the theme leaves out for people who use a keyboard or a screen reader.
 
@@ -28,12 +30,16 @@ _CHANGES = (
 )
 
 
+_TO_THE_TOP = re.compile(r'<a href="#" class="back-to-top.*?</a>', re.DOTALL)
+
+
 def make_accessible(site: Path) -> None:
     """Changes every page: names for landmarks, levels for headings, the keyboard for what can be scrolled."""
     for page in site.rglob("*.html"):
         text = page.read_text(encoding="utf-8")
         for old, new in _CHANGES:
             text = text.replace(old, new)
+        text = _TO_THE_TOP.sub(lambda found: f'<nav aria-label="Within this page">{found[0]}</nav>', text)
         page.write_text(text, encoding="utf-8")
 
 
@@ -174,65 +180,30 @@ class _Stage:
         path.write_text(text, encoding="utf-8")
 
 
-def stage(project: Project, folder: Path, made_pages: Mapping[Path, str], made_before: Collection[Path]) -> None:
+def stage(
+    project: Project,
+    folder: Path,
+    made_pages: Mapping[Path, str],
+    made_before: Collection[Path],
+    live: LiveFigures | None = None,
+) -> None:
     """Fills the folder. `made_pages` are the texts of pages that nobody wrote; `made_before` is which of GALLERY and
     PLAY the site has."""
     made = _Stage(project, folder)
+    steps = {Path("steps") / step.id / "README.md": step for step in kit_steps(project)}
     for document in documents(project):
         known = _MADE_BEFORE.get(document)
-        made.put(document, _open(*known) if known and known[0] in made_before else _menu(project, document))
+        more = _open(*known) if known and known[0] in made_before else _menu(project, document)
+        made.put(document, more + live.in_handout(steps[document]) if live and document in steps else more)
     for page, text in made_pages.items():
         made.write(page, text)
-    static = folder / "_static"
-    static.mkdir()
-    shutil.copyfile(Path(__file__).parent / "static" / "site.css", static / "site.css")
+    style = (Path(__file__).parent / "static" / "site.css").read_text(encoding="utf-8")
+    static = {"site.css": style} if live is None else {"site.css": style + live.style, **live.scripts}
+    for name, text in static.items():
+        made.write(Path("_static") / name, text)
 
 
-# Puts a new site in the place of an older one. What else lies there, such as a history, stays.
-
-_LIST = ".raysteps-site.json"
-_SCHEMA = "raysteps/site/v1"
-
-
-def _files(folder: Path) -> list[str]:
-    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-
-
-def _listed(out: Path) -> list[str] | None:
-    """The files that an older site wrote; none where there is no older site."""
-    try:
-        document = json.loads((out / _LIST).read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
-        return None
-    if not isinstance(document, dict) or document.get("schema") != _SCHEMA:
-        return None
-    names = [Path(str(name)) for name in document.get("files", [])]
-    return [name.as_posix() for name in names if not name.is_absolute() and ".." not in name.parts]
-
-
-def check_place(out: Path) -> None:
-    """A usage error unless it is a new or an empty folder, or an older site."""
-    if out.is_file() or (out.is_dir() and any(out.iterdir()) and _listed(out) is None):
-        raise UsageError(f"{out}: holds something else; expected a new or an empty folder, or an older site")
-
-
-def put(new: Path, out: Path) -> None:
-    """Moves the files of `new`, on the same disk, to `out`. Called again, it finishes what was interrupted."""
-    out.mkdir(parents=True, exist_ok=True)
-    old, files = _listed(out) or [], _files(new)
-    strange = [name for name in files if name not in old and (out / name).exists()]
-    if strange:
-        raise UsageError(f"{out / strange[0]}: is not of an older site, and the new one has such a file; take it away")
-    write_json(out / _LIST, {"schema": _SCHEMA, "files": sorted({*old, *files})})
-    for name in old:
-        (out / name).unlink(missing_ok=True)
-    for name in files:
-        (out / name).parent.mkdir(parents=True, exist_ok=True)
-        (new / name).replace(out / name)
-    for room in sorted({parent for name in old for parent in Path(name).parents}, reverse=True):
-        if (out / room).is_dir() and not any((out / room).iterdir()):
-            (out / room).rmdir()
-    write_json(out / _LIST, {"schema": _SCHEMA, "files": files})
+SITE = OwnedFolder("site", ".raysteps-site.json", "raysteps/site/v1")
 
 
 # Formulas become MathML when the site is built, so a page needs no script and no network to show them.

@@ -11,12 +11,15 @@ from rich.markup import escape
 from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
+from raysteps.play.packages import registry_of
 from raysteps.release.leaks import find_leaks
 from raysteps.release.page_parts import is_page
 from raysteps.release.secrets import gather
 from raysteps.report.terminal import short_path
-from tools.website.build import GALLERY, PLAY, build_site, check_place, check_tools, put, stage
+from raysteps.toolchain.kit_artifacts import paced
+from tools.website.build import GALLERY, PLAY, SITE, build_site, check_tools, stage
 from tools.website.documents import COMMANDS_PAGE, bad_formulas, dead_links, documents
+from tools.website.live_figures import LiveFigures, make_live_figures
 from tools.website.made_pages import api_pages, command_page
 
 
@@ -25,10 +28,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, metavar="DIR", help="where index.html goes (build/site)")
     parser.add_argument("--gallery", type=Path, metavar="DIR", help="a gallery made before, to be part of the site")
     parser.add_argument("--play", type=Path, metavar="DIR", help="a students' page to work in, made before, likewise")
+    parser.add_argument(
+        "--live", action="store_true", help="handouts have live figures, which hold the reference's functions, compiled"
+    )
 
 
 def _check(project: Project, out: Path, gallery: Path | None, play: Path | None) -> None:
-    check_place(out)
+    SITE.check(out)
     if play is not None:
         if not is_page(play):
             raise UsageError(
@@ -50,20 +56,25 @@ def _troubles(project: Project) -> list[str]:
 
 
 def _build(
-    project: Project, out: Path, made_before: dict[Path, Path], pages: dict[Path, str], console: Console
+    project: Project,
+    out: Path,
+    made_before: dict[Path, Path],
+    pages: dict[Path, str],
+    live: LiveFigures | None,
+    console: Console,
 ) -> list[str]:
     """Builds beside its place, and puts it there when nothing is wrong. `made_before` says where pages are from."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".site-", dir=out.parent, ignore_cleanup_errors=True) as name:
         work = Path(name)
         (work / "stage").mkdir()
-        stage(project, work / "stage", pages, made_before)
+        stage(project, work / "stage", pages, made_before, live)
         with console.status("building the site"):
             troubles = build_site(work / "stage", work / "site", work)
         for page, folder in made_before.items():
             shutil.copytree(folder, work / "site" / page.parent)
         if not troubles:
-            put(work / "site", out)
+            SITE.put(work / "site", out)
     return troubles
 
 
@@ -77,7 +88,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         pages = {COMMANDS_PAGE: command_page(project, new_parser(project)), **api_pages(project)}
         asked = {GALLERY: arguments.gallery, PLAY: arguments.play}
         made_before = {page: folder for page, folder in asked.items() if folder is not None}
-        troubles = _build(project, out, made_before, pages, console)
+        live = make_live_figures(project, registry_of(None), paced(console.print)) if arguments.live else None
+        troubles = _build(project, out, made_before, pages, live, console)
     for trouble in troubles:
         console.print(escape(trouble), highlight=False)
     if troubles:

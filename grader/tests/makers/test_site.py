@@ -15,7 +15,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.markdown import BadFormula, anchors, formulas, mathml
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
-from tools.website.build import check_place, put
+from tools.website.build import SITE
 from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, bad_formulas, dead_links, documents
 from tools.website.made_pages import api_pages, command_page
 
@@ -82,16 +82,16 @@ def _written(folder: Path, *names: str) -> Path:
 
 def test_an_older_site_goes_and_what_else_lies_there_stays(tmp_path: Path) -> None:
     out = tmp_path / "out"
-    put(_written(tmp_path / "first", "index.html", "docs/old/a.html"), out)
+    SITE.put(_written(tmp_path / "first", "index.html", "docs/old/a.html"), out)
     _written(out, ".git/HEAD", "CNAME", "docs/mine.txt")
-    check_place(out)
-    put(_written(tmp_path / "second", "index.html", "docs/b.html"), out)
+    SITE.check(out)
+    SITE.put(_written(tmp_path / "second", "index.html", "docs/b.html"), out)
     left = {path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file()}
     assert left == {"index.html", "docs/b.html", ".raysteps-site.json", ".git/HEAD", "CNAME", "docs/mine.txt"}
     assert (out / "index.html").read_text() == "second index.html"
     assert not (out / "docs/old").exists()
     with pytest.raises(UsageError, match="CNAME: is not of an older site"):
-        put(_written(tmp_path / "third", "CNAME"), out)
+        SITE.put(_written(tmp_path / "third", "CNAME"), out)
     assert (out / "CNAME").read_text() == "out CNAME"
 
 
@@ -100,7 +100,7 @@ def test_a_list_that_leads_out_of_the_site_deletes_nothing(tmp_path: Path) -> No
     _written(tmp_path, "precious.txt")
     listed = {"schema": "raysteps/site/v1", "files": ["../precious.txt", str(tmp_path / "precious.txt"), "index.html"]}
     (out / ".raysteps-site.json").write_text(json.dumps(listed))
-    put(_written(tmp_path / "new", "index.html"), out)
+    SITE.put(_written(tmp_path / "new", "index.html"), out)
     assert (tmp_path / "precious.txt").exists()
 
 

@@ -20,8 +20,10 @@ from raysteps.updater.generated_files import CACHE, HISTORY, all_places
 # What a file of a release may be: text, or a PNG picture that is nothing else.
 
 PNG = b"\x89PNG\r\n\x1a\n"
+LIVE_PROGRAM = b"globalThis.raystepsProgram = "  # of the live figures of a site
 # The first bytes of what somebody may leave behind, for better words. What is not known is refused just as well.
 _COMPILED = (
+    LIVE_PROGRAM,
     b"\x7fELF", b"!<arch>\n", b"!<thin>\n", b"\xcf\xfa\xed\xfe", b"\xce\xfa\xed\xfe", b"\xca\xfe\xba\xbe", b"\x64\x86",
     b"\x4c\x01", b"\x64\xaa", b"\0\0\xff\xff", b"BC\xc0\xde", b"\0asm", b"gpch", b"MZ",
 )  # fmt: skip

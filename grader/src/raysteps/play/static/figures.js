@@ -1,5 +1,6 @@
-// Live figures: what the functions of the student's last build say to the reader's numbers, drawn in the handout. This
-// is how a figure is moved, asked and described; what each of them draws stands in drawings.js.
+// Live figures: what functions say to the reader's numbers, drawn in the handout. In the page to work in they are those
+// of the student's last build, on the site the kit's own. This is how a figure is moved, asked and described; what each
+// of them draws stands in drawings.js.
 
 import { said } from "./drawing-words.js";
 import { drawingsOf } from "./drawings.js";
@@ -160,19 +161,21 @@ class Figure {
   #resting;
   #isDragged = false;
   #ask;
+  #named;
 
-  /** `ask` is called when the reader has changed a number. */
-  constructor(description, ask) {
+  /** `ask` is called when the reader has changed a number, `named` says in a text whose functions these are. */
+  constructor(description, ask, named) {
     this.#description = description;
     this.#ask = ask;
+    this.#named = named;
     const title = `live-${++lastId}`;
     this.#says = make("p", { class: "live-says" }, "");
     this.#announced = make("p", { class: "hidden-text", role: "status" }, "");
     this.node = make(
       "section",
       { class: "live", "aria-labelledby": title, "data-figure": description.name },
-      make("h3", { id: title }, description.title),
-      make("p", {}, description.intro),
+      make("h3", { id: title }, named(description.title)),
+      make("p", {}, named(description.intro)),
       make("div", { class: "live-views" }),
       this.#says,
       this.#announced,
@@ -197,7 +200,6 @@ class Figure {
     });
     this.node.append(back);
     this.#showNumbers();
-    this.tell("It waits for your first build: write the functions, then press Run.");
   }
 
   /** What the reader has set, and the words that ask for it. */
@@ -228,7 +230,7 @@ class Figure {
 
   #valueInWords(name) {
     const { words, unit = "" } = this.#description.numbers[name];
-    return words ? words[this.#values[name]] : said(this.#values[name]) + unit;
+    return words ? this.#named(words[this.#values[name]]) : said(this.#values[name]) + unit;
   }
 
   #showNumbers() {
@@ -317,7 +319,7 @@ class Figure {
   }
 
   #say(text) {
-    this.#says.textContent = text;
+    this.#says.textContent = this.#named(text);
     this.#announce();
   }
 
@@ -359,27 +361,43 @@ function whyNot(ran) {
   return words ? `Your code gave up: ${words}` : "Your code ended the program before there was an answer.";
 }
 
+const OWNERS = { your: "the kit's", yours: "the kit's", Your: "The kit's" };
+
 /** The figures of the step that is shown. */
 export class Figures {
-  #runner = new Runner();
+  #runner;
+  #named;
+  #first;
   #figures = [];
   #module = null;
   #waiting = new Set(); // figures whose numbers have changed since they were asked
   #isAsking = false;
 
-  /** Puts the figures of a step below the worked example of its handout. */
+  /** `first` is said until there is a program; with `ofKit` the functions are not the reader's. */
+  constructor(first, { ofKit = false, runner = new Runner() } = {}) {
+    this.#first = first;
+    this.#runner = runner;
+    this.#named = (text) => (ofKit ? text.replace(/\b[Yy]ours?\b/g, (word) => OWNERS[word]) : text);
+  }
+
+  /** Puts the figures of a step below the worked example of its handout; gives them. */
   open(number, handout) {
     this.stop();
     this.#module = null;
     this.#figures = drawingsOf(number).map((one) => {
-      const figure = new Figure(one, () => this.#ask(figure));
+      const figure = new Figure(one, () => this.#ask(figure), this.#named);
       return figure;
     });
+    this.tell(this.#first);
     const titles = [...handout.querySelectorAll("h2")];
-    const next = titles[titles.findIndex((one) => one.textContent === "A worked example") + 1];
-    for (const { node } of this.#figures) {
-      handout.insertBefore(node, next ?? null);
+    const at = titles.findIndex((one) => one.textContent.startsWith("A worked example"));
+    const room = titles[at]?.parentElement ?? handout; // on the site each title has one of its own
+    const next = titles[at + 1]?.parentElement === room ? titles[at + 1] : null;
+    const nodes = this.#figures.map(({ node }) => node);
+    for (const node of nodes) {
+      room.insertBefore(node, next);
     }
+    return nodes;
   }
 
   /** Draws with what was built. */
@@ -388,6 +406,13 @@ export class Figures {
     this.#module = module;
     for (const figure of this.#figures) {
       this.#ask(figure);
+    }
+  }
+
+  /** Says the same in all. */
+  tell(text) {
+    for (const figure of this.#figures) {
+      figure.tell(text);
     }
   }
 

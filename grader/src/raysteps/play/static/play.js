@@ -67,7 +67,7 @@ class Page {
   #compiler;
   #tester = new Runner();
   #painter = new Runner();
-  #figures = new Figures();
+  #figures = new Figures("It waits for your first build: write the functions, then press Run.");
   #inside = null;
   #disk = null;
   #keepTimer = 0;

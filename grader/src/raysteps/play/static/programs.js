@@ -120,8 +120,14 @@ export class Compiler {
 
 /** Runs one program at a time. */
 export class Runner {
+  #start;
   #worker = null;
   #end = null;
+
+  /** `start` gives a worker that does what runner.js does. */
+  constructor(start = () => new Worker("runner.js", { type: "module" })) {
+    this.#start = start;
+  }
 
   /**
    * `{code, stdout, stderr, made, seconds}`, or `{crashed}`, or `{stopped}`.
@@ -129,7 +135,7 @@ export class Runner {
    * @param {number} limit in seconds
    */
   run(task, limit, onTile = () => {}) {
-    this.#worker ??= new Worker("runner.js", { type: "module" });
+    this.#worker ??= this.#start();
     return new Promise((resolve) => {
       const timer = setTimeout(() => this.stop("time"), 1000 * limit);
       this.#end = (result) => {
