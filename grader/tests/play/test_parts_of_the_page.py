@@ -1,6 +1,7 @@
 """What the page is made of: handouts, modules, the words of reports. The whole page: test_play_page.py."""
 
 import json
+import shutil
 from argparse import Namespace
 from collections.abc import Iterator
 from importlib.resources import files
@@ -150,11 +151,48 @@ def test_a_page_is_published_where_nothing_else_is(tmp_path: Path) -> None:
         assert (tmp_path / name / "steps" / "01.html").read_text("utf-8") == "one"
         assert (tmp_path / name / "index.html").read_text("utf-8") == '<html data-published lang="en">'
         assert (tmp_path / name / "offline.js").read_text("utf-8") == '("site", ["./", "play.js"])'
-        with pytest.raises(UsageError, match="expected the name of a new or an empty folder"):
-            refuse_to_publish(kit, tmp_path / name)
-    with pytest.raises(UsageError, match="expected the name of a new or an empty folder"):
-        refuse_to_publish(kit, made / "steps" / "01.html")
+    for place in (made, made / "steps" / "01.html"):
+        with pytest.raises(
+            UsageError, match="holds something else; expected a new or an empty folder, or an older page"
+        ):
+            refuse_to_publish(kit, place)
     assert {path.name for path in tmp_path.iterdir()} == {"site", "new", "empty"}
+
+
+def test_a_page_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:
+    made, out, kit = tmp_path / "site", tmp_path / "public", Project(tmp_path / "kit")
+
+    def publish_with(pages: dict[str, str]) -> None:
+        for name, text in {"index.html": "<html >", "offline.js": "", **pages}.items():
+            (made / name).parent.mkdir(parents=True, exist_ok=True)
+            (made / name).write_text(text, "utf-8")
+        publish(made, out)
+        shutil.rmtree(made)
+
+    publish_with({"steps/01.html": "one", "steps/02.html": "two"})
+    (out / ".git").mkdir()
+    (out / "CNAME").write_text("course.example", "utf-8")
+    refuse_to_publish(kit, out)
+    publish_with({"steps/01.html": "other"})
+    texts = {path.relative_to(out).as_posix(): path.read_text("utf-8") for path in out.rglob("*") if path.is_file()}
+    assert texts.pop(".raysteps-page.json")
+    assert texts == {
+        "index.html": "<html data-published >",
+        "offline.js": "",
+        "steps/01.html": "other",
+        "CNAME": "course.example",
+    }
+    (out / "steps" / "01.html").write_text("with words of my own", "utf-8")
+    with pytest.raises(UsageError, match=r"01\.html: was changed since the page to work in was written"):
+        refuse_to_publish(kit, out)
+    with pytest.raises(UsageError, match=r"01\.html: was changed since the page to work in was written"):
+        publish_with({"steps/01.html": "third"})
+    assert (out / "steps" / "01.html").read_text("utf-8") == "with words of my own"
+    (out / "steps" / "01.html").unlink()  # which is nothing to lose
+    with pytest.raises(UsageError, match="CNAME: is not of an older page to work in"):
+        publish_with({"CNAME": "mine"})
+    assert (out / "CNAME").read_text("utf-8") == "course.example"
+    assert {path.name for path in tmp_path.iterdir()} <= {"site", "public"}
 
 
 def test_before_there_is_a_page_there_is_nothing() -> None:

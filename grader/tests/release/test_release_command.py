@@ -55,7 +55,7 @@ def test_a_page_to_work_in_lies_beside_the_release(project: Project, tmp_path: P
         with pytest.raises(UsageError, match=said):
             _run(project, "--out", str(out), "--play", str(place))
     (tmp_path / "full" / "a").mkdir(parents=True)
-    with pytest.raises(UsageError, match="expected the name of a new or an empty folder"):
+    with pytest.raises(UsageError, match="expected a new or an empty folder, or an older page to work in"):
         _run(project, "--out", str(out), "--play", str(tmp_path / "full"))
     assert [path.name for path in tmp_path.iterdir()] == ["full"]
 

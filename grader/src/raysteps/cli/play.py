@@ -25,7 +25,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--port", type=port, default=_PORT, metavar="N", help=f"of the page ({_PORT}); your work is kept by it")
     add("--no-open", action="store_true", help="do not open the page in a browser")
     add("--registry", metavar="URL", help=f"where npm packages are loaded down from, once ({REGISTRY})")
-    add("--out", type=Path, metavar="DIR", help="write the page into a new or empty folder, to be published")
+    add(
+        "--out",
+        type=Path,
+        metavar="DIR",
+        help="write the page to be published: a new or empty folder, or an earlier page",
+    )
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:

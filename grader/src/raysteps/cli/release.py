@@ -13,13 +13,13 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import new_or_empty_folder
 from raysteps.common.platform import own_command, quote_command
 from raysteps.common.text import count, join_and, tenths
 from raysteps.course.manifest import Step, choose, course_steps, of_other_parts, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.play.packages import REGISTRY, registry_of
+from raysteps.play.play_page import check_published
 from raysteps.release.build_release import PageOptions, due_steps, first_steps, release, usable, written_files
 from raysteps.release.leaks import Leak, find_leaks, leaks_in_history, not_searched
 from raysteps.release.secrets import Secrets, gather
@@ -42,7 +42,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--course", metavar="NAME", help="for the README (that of course.toml, else Raysteps)")
     parser.add_argument(
-        "--play", type=Path, metavar="DIR", help="write the page to work in, too, into a new or empty folder"
+        "--play",
+        type=Path,
+        metavar="DIR",
+        help="write the page to work in, too: a new or empty folder, or an earlier page",
     )
     parser.add_argument("--registry", metavar="URL", help=f"where npm packages for it come from, once ({REGISTRY})")
 
@@ -133,7 +136,7 @@ def _page(project: Project, out: Path, arguments: argparse.Namespace) -> PageOpt
     refuse_inside(project, place)
     if place == out or out in place.parents or place in out.parents:
         raise UsageError(f"--play {arguments.play}: expected a folder beside the release, such as ../{out.name}-page")
-    new_or_empty_folder(place)
+    check_published(place)
     return PageOptions(place, registry_of(arguments.registry))
 
 

@@ -7,6 +7,7 @@ import posixpath
 import re
 import shutil
 import tarfile
+import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -17,9 +18,10 @@ from typing import Any
 import numpy as np
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import new_or_empty_folder, one_at_a_time, write_bytes
+from raysteps.common.files import one_at_a_time, usable_folder, write_bytes
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
 from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targets
+from raysteps.common.owned_folder import OwnedFolder
 from raysteps.course.manifest import ImageCase, Step, course_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
@@ -347,6 +349,8 @@ class PlayPage:
 
 # Published, on any web space.
 
+_PUBLISHED = OwnedFolder("page to work in", ".raysteps-page.json", "raysteps/page/v1", marked=True)
+
 
 def refuse_to_publish(project: Project, out: Path) -> None:
     """The whole kit's page holds the reference's steps as objects, which say how they are written."""
@@ -355,21 +359,31 @@ def refuse_to_publish(project: Project, out: Path) -> None:
             f"{out}: the page of this kit holds the reference's steps and must not be published; make a students' kit "
             "(./raysteps release --out ../course), and type ./raysteps play --out there"
         )
-    new_or_empty_folder(out)
+    check_published(out)
+
+
+def check_published(out: Path) -> None:
+    """A usage error unless a page can be written there: into a new or an empty folder, or over an earlier page."""
+    _PUBLISHED.check(out)
+    usable_folder(out)
 
 
 def publish(made: Path, out: Path) -> None:
     """The page itself comes last: without it, what is there so far is none. It says that it is published: then a
     browser keeps its files."""
     page, worker = "index.html", "offline.js"
-    shutil.copytree(made, out, ignore=shutil.ignore_patterns(page), dirs_exist_ok=True)
-    scripts = [path.relative_to(made).as_posix() for path in made.rglob("*.js") if path.name != worker]
-    filled = {'"@EDITION@"': json.dumps(made.name), '["@FIRST@"]': json.dumps(["./", *sorted(scripts)])}
-    text = (made / worker).read_text("utf-8")
-    for mark, value in filled.items():
-        text = text.replace(mark, value)
-    write_bytes(out / worker, text.encode())
-    write_bytes(out / page, (made / page).read_bytes().replace(b"<html ", b"<html data-published ", 1))
+    check_published(out)
+    with tempfile.TemporaryDirectory(prefix=f".{out.name}-new-", dir=out.parent, ignore_cleanup_errors=True) as name:
+        new = Path(name) / out.name
+        shutil.copytree(made, new)
+        scripts = [path.relative_to(made).as_posix() for path in made.rglob("*.js") if path.name != worker]
+        filled = {'"@EDITION@"': json.dumps(made.name), '["@FIRST@"]': json.dumps(["./", *sorted(scripts)])}
+        text = (made / worker).read_text("utf-8")
+        for mark, value in filled.items():
+            text = text.replace(mark, value)
+        write_bytes(new / worker, text.encode())
+        write_bytes(new / page, (made / page).read_bytes().replace(b"<html ", b"<html data-published ", 1))
+        _PUBLISHED.put(new, out, last=page)
 
 
 # Served on this machine. Everything in the folder may be read, and nothing else.
