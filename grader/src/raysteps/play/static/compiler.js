@@ -9,6 +9,7 @@ let clang = null;
 let kit = null;
 const compiled = new Map(); // objects by step and source
 const headers = new Map(); // compiled ones, by step
+const stubs = new Set(); // steps whose stub's headers are there
 
 /** What comes, unpacked: where a server says that a .gz is packed, the browser has done that already. */
 async function unpacked(body) {
@@ -65,24 +66,45 @@ async function prepare(message) {
   postMessage({ ready: true, clang: message.clang ? null : clang });
 }
 
+/** The compiled headers of the stub, which come with the page. */
+async function headersOfStub(step) {
+  const path = `${step.headers.path}.pch`;
+  if (!stubs.has(step.number)) {
+    files.write(step.headers.path, new TextEncoder().encode(step.headers.includes));
+    files.write(path, await bytesOf(step.headers.file));
+    stubs.add(step.number);
+  }
+  return path;
+}
+
+/** Other headers, compiled; what the stub includes is taken from there, and costs nothing again. */
+async function headersOfOwn(step, includes) {
+  const lines = includes.split("\n");
+  const given = step.headers.includes.split("\n");
+  const builtOn = given.every((line) => lines.includes(line)) ? ["-include-pch", await headersOfStub(step)] : [];
+  const more = builtOn.length ? lines.filter((line) => !given.includes(line)) : lines;
+  const source = `${step.headers.path}.own.hpp`;
+  const path = `${source}.pch`;
+  files.write(source, new TextEncoder().encode(`${more.join("\n")}\n`));
+  files.remove(path);
+  const { code } = runProgram(clang, [...filled(kit.headers, [source], path), ...builtOn], files);
+  return code === 0 ? path : null;
+}
+
 /** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely. */
 async function prepareHeaders(job, step, source) {
   const includes = firstIncludes(source);
-  const path = `${step.headers.path}.pch`;
   const known = headers.get(step.number);
-  if (known?.includes !== includes) {
-    files.write(step.headers.path, new TextEncoder().encode(includes));
-    files.remove(path);
-    let code = 0;
-    if (includes === step.headers.includes) {
-      files.write(path, await bytesOf(step.headers.file));
-    } else {
-      postMessage({ job, headers: true });
-      code = runProgram(clang, filled(kit.headers, [step.headers.path], path), files).code;
-    }
-    headers.set(step.number, { includes, path: code === 0 ? path : null });
+  if (known?.includes === includes) {
+    return known.path;
   }
-  return headers.get(step.number).path;
+  const isStub = includes === step.headers.includes;
+  if (!isStub) {
+    postMessage({ job, headers: true });
+  }
+  const path = isStub ? await headersOfStub(step) : await headersOfOwn(step, includes);
+  headers.set(step.number, { includes, path });
+  return path;
 }
 
 /** The words of a command with the names of these files. */
