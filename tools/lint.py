@@ -43,10 +43,22 @@ def _cpp(project: Project, *words: str) -> Report:
     return command([_tool("clang-format"), *words, *files], project.root)
 
 
-def _each_once(folder: Path) -> Path:
-    """Where the commands of a build folder stand once for each source: some belong to several programs."""
+_WEB = "framework/web"
+_LIKE_WEB = "framework/apps/raytrace.cpp"  # includes of the same rooms
+_WEB_ALONE = "exceptions.cpp"  # of instructions that only WebAssembly has
+
+
+def _each_once(folder: Path, root: Path) -> Path:
+    """Where the commands of a build folder stand once for each source: some belong to several programs. What only the
+    compiler of the page to work in compiles stands there as if this one did."""
     commands = json.loads((folder / "compile_commands.json").read_text(encoding="utf-8"))
     once = {command["file"]: command for command in commands}
+    like = once[str(root / _LIKE_WEB)]
+    for path in sorted((root / _WEB).glob("*.cpp")):
+        if path.name != _WEB_ALONE:
+            words = like["command"].replace(like["file"], str(path))
+            foreign = "-Wno-unknown-attributes"  # of functions that a page gives
+            once[str(path)] = like | {"command": f"{words} {foreign}", "file": str(path)}
     write_json(folder / "once" / "compile_commands.json", list(once.values()))
     return folder / "once"
 
@@ -59,7 +71,7 @@ def _tidy(project: Project, *words: str) -> Report:
         tree.configure()
     sources = rf"^{re.escape(project.root.as_posix())}/(bench|framework|solutions)/(?!testing/|io/fuzz/|.*_test\.)"
     runner: list[str | Path] = [sys.executable, _tool("run-clang-tidy.py"), "-clang-tidy-binary", _tool("clang-tidy")]
-    runner += ["-quiet", "-p", _each_once(tree.folder), *words, sources]
+    runner += ["-quiet", "-p", _each_once(tree.folder, project.root), *words, sources]
     return command(runner, project.root, _TIDY_SECONDS, progress=r"\[ *\d+/\d+\]")
 
 
