@@ -14,6 +14,7 @@ from tools.bench.grading import bench_loop, grading
 from tools.bench.mitsuba import MitsubaOptions, bench_mitsuba
 from tools.bench.model import ParseNumbers, ParseRow, keep
 from tools.bench.pictures import ThreadsOptions, bench_threads, boxes
+from tools.bench.play import bench_play
 from tools.bench.programs import ask_pinned, checked, portable
 from tools.bench.render import RenderOptions, bench_render
 from tools.bench.scale import ScaleOptions, bench_scale
@@ -128,6 +129,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _add_rounds(add, 5)
     words = "in the class (120)"
     add.add_argument("--submissions", type=_number(1, 1000), default=120, metavar="N", help=words)
+    add = commands.add_parser("play", help="from a save to the picture in the page to work in, by Chromium")
+    add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
+    _add_rounds(add, 3)
 
     add = commands.add_parser("boxes", help="what boxes save, against testing every surface")
     add.add_argument("--scenes", nargs="*", type=Path, default=[], metavar="FILE", help="more scenes to measure")
@@ -160,6 +164,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             return bench_loop(project, given.steps, given.rounds, console)
         case "waits":
             return bench_waits(project, WaitsOptions(given.rounds, given.submissions), console)
+        case "play":
+            return bench_play(project, given.steps, given.rounds, console)
         case "boxes":
             return boxes(project, given.scenes, given.size, console)
         case "grading":

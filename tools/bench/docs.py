@@ -22,6 +22,7 @@ from tools.bench.model import (
     MitsubaNumbers,
     Numbers,
     ParseNumbers,
+    PlayNumbers,
     PovrayRow,
     RenderNumbers,
     ScaleNumbers,
@@ -195,6 +196,17 @@ def waits_tables(document: WaitsNumbers) -> str:
     return f"{machine_line(document.machine)}\n\n{markdown(heads, rows)}"
 
 
+def play_tables(document: PlayNumbers) -> str:
+    """One line for each step; what the first visit loads above."""
+    rows = [(row.step, f"{row.first:.2f}", spread(row.later, 2)) for row in document.rows]
+    visit = f"{document.first_bytes / 1e6:.1f} MB, and {document.first_seconds:.1f} s until its first picture"
+    known = document.memory_bytes > 0
+    memory = f"; in the end the page takes {document.memory_bytes / 1e9:.1f} GB of memory" if known else ""
+    words = f"{document.browser}, local server; {machine_line(document.machine)} The first visit: {visit}{memory}."
+    table = markdown(("step", "first save, s", "later saves, s"), rows)
+    return f"{fill(words, 120, break_on_hyphens=False)}\n\n{table}"
+
+
 def boxes_tables(document: BoxesNumbers) -> str:
     """What boxes save."""
     rows = [
@@ -332,6 +344,7 @@ def parts_of(project: Project) -> dict[str, str | None]:
         "parse": _part(project, ParseNumbers, parse_tables),
         "loop": _part(project, LoopNumbers, loop_tables),
         "waits": _part(project, WaitsNumbers, waits_tables),
+        "play": _part(project, PlayNumbers, play_tables),
     }
 
 
@@ -340,22 +353,30 @@ def replace_part(page: str, name: str, content: str) -> str:
     begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
     if len(pattern.findall(page)) != 1:
-        raise GraderFault(f"docs/benchmarks.md: expected one part between '{begin}' and '{end}'")
+        raise GraderFault(f"docs/{page_of(name)}: expected one part between '{begin}' and '{end}'")
     return pattern.sub(lambda _: f"{begin}\n{content}\n{end}", page)
+
+
+def page_of(name: str) -> str:
+    """The document that shows a benchmark."""
+    return "play.md" if name == PlayNumbers.name else "benchmarks.md"
 
 
 def bench_docs(project: Project, console: Console) -> int:
     """Writes the parts that have been measured, and names the others."""
-    path = project.root / "docs" / "benchmarks.md"
-    page = path.read_text(encoding="utf-8")
     measured = parts_of(project)
     if not any(measured.values()):
         raise UsageError("nothing has been measured yet; begin with: ./raysteps bench render")
-    for name, content in measured.items():
-        if content is None:
-            console.print(f"not measured here, left as it is: {name}")
-        else:
-            page = replace_part(page, name, content)
-    changed = write_if_changed(path, page.encode())
-    console.print(escape(f"{path} {'written' if changed else 'is up to date'}"), soft_wrap=True)
+    for document in dict.fromkeys(map(page_of, measured)):
+        path = project.root / "docs" / document
+        page = path.read_text(encoding="utf-8")
+        for name, content in measured.items():
+            if page_of(name) != document:
+                continue
+            if content is None:
+                console.print(f"not measured here, left as it is: {name}")
+            else:
+                page = replace_part(page, name, content)
+        changed = write_if_changed(path, page.encode())
+        console.print(escape(f"{path} {'written' if changed else 'is up to date'}"), soft_wrap=True)
     return 0

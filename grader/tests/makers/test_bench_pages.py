@@ -8,8 +8,19 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.course.project import Project
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
-from tools.bench.docs import replace_part, waits_tables
-from tools.bench.model import Machine, Numbers, RayKinds, SceneRays, Spread, StructureTimes, WaitsNumbers, WaitsRow
+from tools.bench.docs import page_of, play_tables, replace_part, waits_tables
+from tools.bench.model import (
+    Machine,
+    Numbers,
+    PlayNumbers,
+    RayKinds,
+    SaveRow,
+    SceneRays,
+    Spread,
+    StructureTimes,
+    WaitsNumbers,
+    WaitsRow,
+)
 from tools.bench.render import against_embree, names_of
 from tools.bench.tables import markdown
 
@@ -67,8 +78,8 @@ def test_only_the_part_between_the_marks_is_replaced() -> None:
 
 
 def test_the_page_has_a_part_for_each_benchmark(project: Project) -> None:
-    page = (project.root / "docs" / "benchmarks.md").read_text(encoding="utf-8")
     for kind in get_args(Numbers):
+        page = (project.root / "docs" / page_of(kind.name)).read_text(encoding="utf-8")
         assert "\nnew\n" in replace_part(page, kind.name, "new")
 
 
@@ -83,6 +94,22 @@ def test_what_is_waited_for_is_told_by_the_least_and_the_median() -> None:
         "| `hint 01` | 3 | 0.10 | 0.20 | 0.20 |",
         "| watch 01, from a save to tests and pictures | 1 | 1.00 | 1.00 |  |",
     ]
+
+
+def test_the_page_to_work_in_says_how_long_people_wait() -> None:
+    numbers = PlayNumbers(
+        machine=Machine("a processor", 2, "Linux x86_64", "gcc 12", "-O2", pinned=True),
+        browser="Chromium 1",
+        first_bytes=30_700_000,
+        first_seconds=5.43,
+        memory_bytes=930_000_000,
+        rows=[SaveRow("06-octree", 2.5, Spread.of([1.0, 1.2, 1.1]))],
+    )
+    words, table = play_tables(numbers).split("\n\n")
+    assert "The first visit: 30.7 MB, and 5.4 s until its first picture; in the end the page takes 0.9 GB" in " ".join(
+        words.split()
+    )
+    assert table.splitlines()[-1] == "| 06-octree | 2.50 | 1.10 (1.05 to 1.15) |"
 
 
 def test_ratios_are_those_of_the_same_scene() -> None:

@@ -148,7 +148,7 @@ _WHOLE = re.compile(
     r"^<!-- whole kit -->\n.*?^<!-- end -->\n|<!-- whole kit -->.*?<!-- end -->", re.MULTILINE | re.DOTALL
 )
 _STUDENTS = re.compile(r"<!-- students'\s+kit:\s*(.*?)\s*-->", re.DOTALL)
-_MARK = re.compile(r"<!-- *(?:whole\s+kit|end|students'\s+kit)\b")
+_MARK = re.compile(r"<!-- *(?:whole\s+kit|end(?! [\w-]+ -->)|students'\s+kit)\b")
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _GAP = re.compile(r"\n{3,}")
 

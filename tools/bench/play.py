@@ -1,0 +1,144 @@
+"""The command `bench play`: how long people wait in the page to work in."""
+
+import os
+import re
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+
+from raysteps.common.errors import UsageError
+from raysteps.course.manifest import Step, choose, kit_steps
+from raysteps.course.project import Project
+from raysteps.course.settings import PLACE
+from raysteps.course.stubs import without_markers
+from raysteps.play.packages import registry_of
+from raysteps.play.play_page import PlayPage, PlayServer
+from raysteps.toolchain.cmake import release_tree
+from raysteps.toolchain.kit_artifacts import paced
+from tools.bench.model import PlayNumbers, SaveRow, Spread, keep
+from tools.bench.programs import machine
+from tools.bench.tables import median, terminal_table
+
+if TYPE_CHECKING:  # only this command waits for it
+    from playwright.sync_api import Browser, Page
+
+_NAMES = ("chromium", "chromium-browser", "google-chrome")
+_MILLISECONDS = 180_000  # until a step was tested and drawn
+_NUMBER = re.compile(r"\d")
+_SUMMED = "() => /tests pass|compile/.test(document.getElementById('play-status').textContent)"
+
+
+@contextmanager
+def _both_parts() -> Iterator[None]:
+    """A course that has all steps, whatever that of this kit has."""
+    before = os.environ.get(PLACE)
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as name:
+        course = Path(name) / "course.toml"
+        course.write_text("parts = [1, 2]\n", encoding="utf-8")
+        os.environ[PLACE] = str(course)
+        try:
+            yield
+        finally:
+            os.environ.pop(PLACE)
+            if before is not None:
+                os.environ[PLACE] = before
+
+
+@contextmanager
+def _chromium() -> "Iterator[Browser]":
+    program = next(filter(None, map(shutil.which, _NAMES)), None)
+    if program is None:
+        raise UsageError("no Chromium here; install the package chromium")
+    from playwright.sync_api import sync_playwright
+
+    as_root = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program, args=["--disable-gpu", *as_root])
+        yield browser
+        browser.close()
+
+
+def _memory(browser: "Browser") -> int:
+    """Of the processes that run pages, in bytes; what they share counts by their parts. 0 where nobody tells."""
+    told = browser.new_browser_cdp_session().send("SystemInfo.getProcessInfo")
+    total = 0
+    for process in told["processInfo"]:
+        path = Path(f"/proc/{process['id']}/smaps_rollup")
+        if process["type"] == "renderer" and path.is_file():
+            lines = path.read_text(encoding="utf-8").splitlines()
+            total += sum(1024 * int(line.split()[1]) for line in lines if line.startswith("Pss:"))
+    return total
+
+
+def _drawn(page: "Page", step: Step, text: str | None = None) -> float:
+    """Seconds from a save, or from the choice of the step, to its first picture."""
+    from playwright.sync_api import expect
+
+    if text is not None:
+        page.locator(".cm-content").click()
+        page.keyboard.press("ControlOrMeta+a")
+        page.keyboard.insert_text(text)
+        page.evaluate("() => document.querySelectorAll('.play-picture').forEach(one => delete one.dataset.seconds)")
+        page.keyboard.press("ControlOrMeta+s")
+    picture = page.locator(f"#picture-{step.images[0].name}")
+    expect(picture).to_have_attribute("data-seconds", _NUMBER, timeout=_MILLISECONDS)
+    page.wait_for_function(_SUMMED, timeout=_MILLISECONDS)
+    return float(picture.get_attribute("data-seconds") or "nan")
+
+
+def _visited(browser: "Browser", address: str, first: Step) -> "tuple[Page, int, float]":
+    """The page, opened for the first time, with the bytes that came and the seconds until there was a picture."""
+    page = browser.new_page()
+    page.set_default_timeout(_MILLISECONDS)
+    loaded: list[int] = []
+    page.on("response", lambda answer: loaded.append(int(answer.headers.get("content-length", 0))))  # of workers, too
+    start = time.monotonic()
+    page.goto(f"{address}#{first.number}")
+    _drawn(page, first)
+    return page, sum(loaded), time.monotonic() - start
+
+
+def bench_play(project: Project, names: list[str], rounds: int, console: Console) -> int:
+    """Measures, prints a table and writes build/bench/play.json."""
+    if not project.has_reference:
+        raise UsageError("bench play saves the reference's steps, which this kit does not have")
+    with _both_parts():
+        steps = choose(kit_steps(project), names)
+        folder = PlayPage(project, registry_of(None), paced(console.print)).make()
+    server = PlayServer(folder)
+    rows = []
+    try:
+        with _chromium() as browser:
+            page, size, seconds = _visited(browser, server.address, steps[0])
+            for step in steps:
+                page.evaluate("number => { location.hash = number; }", step.number)
+                _drawn(page, step)
+                text = without_markers((project.solutions / step.path).read_text("utf-8"))
+                first, *later = [_drawn(page, step, f"{text}// save {at}\n") for at in range(1 + rounds)]
+                rows.append(SaveRow(step.id, first, Spread.of(later)))
+                console.print(f"{step.id}: {first:.2f} s, then {rows[-1].later.median:.2f} s")
+            memory = _memory(browser)
+            version = f"Chromium {browser.version}"
+    finally:
+        server.close()
+    numbers = PlayNumbers(
+        machine=machine(release_tree(project)),
+        browser=version,
+        first_bytes=size,
+        first_seconds=seconds,
+        memory_bytes=memory,
+        rows=rows,
+    )
+    table = terminal_table("from a save to the first picture in the page to work in", ("step", "first", "later"))
+    for row in rows:
+        table.add_row(row.step, f"{row.first:.2f} s", median(row.later, 2, " s"))
+    console.print(table)
+    console.print(f"first visit: {size / 1e6:.1f} MB, {seconds:.1f} s; memory: {memory / 1e9:.2f} GB")
+    keep(project, numbers, console)
+    return 0
