@@ -4,28 +4,19 @@ import { Editor } from "./editor.js";
 import { Figures } from "./figures.js";
 import { DiskFolder } from "./folder.js";
 import { Inside } from "./inside.js";
-import { compareEstimates, readEstimates } from "./noise.js";
-import { compare, draw, readImage, readPpm } from "./pictures.js";
-import { Compiler, Runner, whyNothing } from "./programs.js";
+import { data, element } from "./page-data.js";
+import { Painter } from "./painting.js";
+import { Compiler } from "./programs.js";
 import { openTexts, textLink } from "./reading.js";
-import { linkerWords, printedIn, readReport } from "./report.js";
+import { linkerWords } from "./report.js";
+import { Tester } from "./testing.js";
 import { Turn, textsIn, Work, zipOf } from "./work.js";
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const element = (id) => document.getElementById(id);
 const COMPILE_SECONDS = 60;
-const ESTIMATES = ["--estimates", "/out/estimates"]; // of a noisy picture
-const AFTER_A_STOP = 4; // once a program of a step has hung, the next ones get so much less time
 const KEEP_AFTER = 300; // milliseconds without a key
 const SOON = 3000; // milliseconds until a service worker is there, or the page begins without it
 const turnOf = (step) => `raysteps-play ${step.id}`; // of the tab that writes it
 const replaced = (step) => `${step.id} before its reset`; // what may be brought back, by this name in the work
-
-/** The functions of a source that still say that they are not written. */
-function unfinished(source) {
-  const code = source.replace(/\/\*.*?\*\/|\/\/[^\n]*/gs, "");
-  return new Set([...code.matchAll(/RAYSTEPS_TODO\(\s*"[^"]*",\s*"([^"]*)"\s*\)/g)].map((found) => found[1]));
-}
 
 /** What the compiler says: `{file, line, column, severity, message}`, notes behind what they belong to. */
 function problemsIn(text) {
@@ -65,15 +56,17 @@ class Page {
   #step = null;
   #editor;
   #compiler;
-  #tester = new Runner();
-  #painter = new Runner();
+  #tester = new Tester((ran) => this.#print(ran));
+  #painter = new Painter(
+    (ran) => this.#print(ran),
+    (...picture) => this.#inside.offer(...picture),
+  );
   #figures = new Figures("It waits for your first build: write the functions, then press Run.");
   #inside = null;
   #disk = null;
   #keepTimer = 0;
   #kept = ""; // the text that needs no keeping
   #run = 0; // counts runs: what an older one finds is not shown
-  #files = new Map();
 
   async start() {
     await keepFiles(); // those that come next, too
@@ -474,8 +467,8 @@ class Page {
   stop() {
     this.#run++;
     this.#compiler.stop("The compiler was stopped.");
-    this.#tester.stop("hand");
-    this.#painter.stop("hand");
+    this.#tester.stop();
+    this.#painter.stop();
     this.#figures.stop();
     this.#inside.stop();
     this.#say("idle", "Stopped.");
@@ -518,8 +511,8 @@ class Page {
       element("play-console").textContent = "";
       const current = () => run === this.#run;
       const [tests, pictures] = await Promise.all([
-        this.#test(step, module, current),
-        this.#paint(step, module, current, start),
+        this.#tester.test({ step, source: sources[step.number], module, current }),
+        this.#painter.paint({ step, module, current, start }),
       ]);
       if (current()) {
         this.#sum(step, tests, pictures, built);
@@ -578,215 +571,6 @@ class Page {
       const lines = new Set(`${room.textContent}\n${text}`.split("\n").filter(Boolean));
       room.textContent = [...lines].slice(-200).join("\n");
     }
-  }
-
-  // Tests.
-
-  async #test(step, module, current) {
-    const words = ["test", "-r", "xml", "-o", "/out/report.xml"];
-    const task = { module, files: {}, wanted: ["/out/report.xml"] };
-    let limit = step.seconds;
-    const ask = (more = []) => this.#tester.run({ ...task, words: [...words, ...more] }, limit);
-    const textOf = (ran) => new TextDecoder().decode(ran.made?.["/out/report.xml"] ?? new Uint8Array());
-    const reportOf = (ran) => readReport(textOf(ran));
-    const together = await ask();
-    limit /= together.stopped ? AFTER_A_STOP : 1;
-    let results = together.code === undefined ? null : reportOf(together);
-    if (results?.length !== step.tests.length) {
-      results = [];
-      for (const { name } of step.tests) {
-        if (!current()) {
-          return [];
-        }
-        const ran = await ask([name.replace(/([\\,["])/g, "\\$1")]);
-        const [found] = (ran.code === undefined ? null : reportOf(ran)) ?? [];
-        results.push(found ?? { name, passed: false, message: whyNothing(ran, "The test", data.words.endless) });
-        this.#print(ran);
-      }
-    }
-    if (current()) {
-      this.#print({ ...together, stdout: `${together.stdout ?? ""}\n${printedIn(textOf(together))}` });
-      this.#tellTests(step, results);
-    }
-    return results;
-  }
-
-  #tellTests(step, results) {
-    const open = unfinished(this.#editor.text);
-    const functionsOf = Object.fromEntries(step.tests.map(({ name, functions }) => [name, functions]));
-    const linked = (panel) => {
-      for (const room of panel.querySelectorAll("dd")) {
-        const [, name, line] = /^([\w.]+):(\d+)$/.exec(room.textContent) ?? [];
-        if (step.texts[name]) {
-          room.replaceChildren(textLink(name, step.texts[name], line));
-        }
-      }
-      return panel;
-    };
-    const isOpen = ({ name, passed }) => !passed && functionsOf[name]?.some((one) => open.has(one));
-    const wrong = results.filter((one) => !one.passed && !isOpen(one));
-    const waiting = results.filter(isOpen);
-    const right = results.filter((one) => one.passed);
-    const list = (title, some) =>
-      some.length
-        ? [
-            make(
-              "details",
-              {},
-              make("summary", {}, title),
-              make("ul", {}, ...some.map(({ name }) => make("li", {}, name))),
-            ),
-          ]
-        : [];
-    element("play-tests").replaceChildren(
-      ...wrong.map(({ name, failure, message }) =>
-        linked(
-          watchTest({
-            name,
-            message: message ?? failure?.notes ?? "",
-            expected: failure?.expected,
-            actual: failure?.got,
-            place: failure?.where,
-          }),
-        ),
-      ),
-      ...list(`${waiting.length} wait for a function that is not written yet`, waiting),
-      ...list(`${right.length} of ${results.length} tests pass`, right),
-    );
-  }
-
-  // Pictures.
-
-  async #fileOf(name) {
-    if (!this.#files.has(name)) {
-      this.#files.set(name, new Uint8Array(await (await fetch(name)).arrayBuffer()));
-    }
-    return this.#files.get(name);
-  }
-
-  async #paint(step, module, current, start) {
-    const verdicts = [];
-    let limit = step.seconds;
-    for (const picture of step.pictures) {
-      const shown = this.#frame(picture);
-      const task = {
-        module,
-        words: ["raytrace", "/scene.nff", ...picture.args, ...data.words.raytrace, ...(picture.noise ? ESTIMATES : [])],
-        files: { "/scene.nff": await this.#fileOf(picture.scene) },
-        wanted: ["/out/picture.ppm", "/out/stats.json", "/out/estimates"],
-      };
-      if (!current()) {
-        return [];
-      }
-      const ran = await this.#painter.run(task, limit, (tile) => current() && shown.tile(tile));
-      if (!current()) {
-        return [];
-      }
-      limit /= ran.stopped ? AFTER_A_STOP : 1;
-      this.#print(ran);
-      const verdict = await this.#judge(picture, ran, shown);
-      verdicts.push(verdict);
-      shown.root.dataset.seconds = ((performance.now() - start) / 1000).toFixed(2);
-    }
-    return verdicts;
-  }
-
-  /** Where a picture stands: the canvas on which it grows, and then the comparison. */
-  #frame(picture) {
-    const id = `picture-${picture.name}`;
-    let root = element(id);
-    if (!root) {
-      const canvas = make("canvas", { class: "play-canvas", role: "img", "aria-label": `${picture.name}: yours` });
-      const goal = make("img", { class: "play-goal", src: picture.reference, alt: `${picture.name}: the reference` });
-      root = make(
-        "article",
-        { class: "play-picture", id },
-        make("h3", {}, picture.name, make("span", {}), this.#numbersButton()),
-        make("p", { class: "play-words" }),
-        make("div", { class: "play-pair" }, canvas, goal),
-      );
-      this.#inside.offer(root, picture, () => this.#fileOf(picture.scene));
-      element(picture === this.#step.pictures[0] ? "play-first" : "play-pictures").append(root);
-    }
-    const [canvas] = root.getElementsByTagName("canvas");
-    const pair = root.querySelector(".play-pair");
-    const beginGrowing = () => {
-      if (pair.hidden || !canvas.dataset.grows) {
-        canvas.width = picture.width;
-        canvas.height = picture.height;
-        canvas.dataset.grows = "yes";
-        pair.hidden = false;
-        root.querySelector("compare-pictures")?.setAttribute("hidden", "");
-      }
-    };
-    return {
-      root,
-      tile: (tile) => {
-        beginGrowing();
-        draw(canvas, tile);
-      },
-      done: () => delete canvas.dataset.grows,
-    };
-  }
-
-  /** Shows and hides what a comparison tells of single pixels. */
-  #numbersButton() {
-    const button = make("button", { type: "button", class: "play-numbers", "aria-pressed": "false" }, "Numbers");
-    button.addEventListener("click", () => {
-      const isOn = button.getAttribute("aria-pressed") !== "true";
-      button.setAttribute("aria-pressed", String(isOn));
-      button.closest(".play-picture").classList.toggle("play-with-numbers", isOn);
-    });
-    return button;
-  }
-
-  async #judge(picture, ran, shown) {
-    shown.done();
-    const bytes = ran.code === 0 ? ran.made["/out/picture.ppm"] : null;
-    const mine = bytes ? readPpm(bytes) : null;
-    const reference = await readImage(picture.reference);
-    const estimates = mine && picture.noise ? readEstimates(ran.made["/out/estimates"]) : null;
-    const verdict = estimates
-      ? compareEstimates(estimates, picture.noise)
-      : mine && !picture.noise
-        ? compare(mine, reference, picture.maxWrong)
-        : { passed: false, message: whyNothing(ran, "The picture", data.words.endless) };
-    const stats = ran.made?.["/out/stats.json"];
-    if (verdict.passed && picture.maxShare !== null && stats) {
-      const { share_tested: share } = JSON.parse(new TextDecoder().decode(stats));
-      Object.assign(verdict, this.#judgeWork(share, picture.maxShare));
-    }
-    const sign = shown.root.querySelector("h3 > span");
-    sign.textContent = verdict.passed ? " ✓ right" : mine ? " ✗ wrong" : " ✗ missing";
-    sign.className = verdict.passed ? "watch-good" : "watch-bad";
-    shown.root.querySelector(".play-words").textContent = verdict.message;
-    if (mine) {
-      this.#showPair(picture, mine, shown.root);
-    }
-    return verdict;
-  }
-
-  #judgeWork(share, most) {
-    if (!share) {
-      return { passed: false, message: data.words.noTests };
-    }
-    const percent = (part) => Number((100 * part).toPrecision(3));
-    const message = data.words.tooManyTests.replace("{share}", percent(share)).replace("{most}", percent(most));
-    return share <= most ? {} : { passed: false, message };
-  }
-
-  #showPair(picture, mine, root) {
-    const canvas = make("canvas", { width: mine.width, height: mine.height });
-    draw(canvas, mine);
-    let view = root.querySelector("compare-pictures");
-    if (!view) {
-      view = make("compare-pictures", { label: picture.name, group: "play" });
-      root.append(view);
-    }
-    view.removeAttribute("hidden");
-    const one = (src, name) => ({ src, name, alt: `${picture.name}: ${name}` });
-    view.setPictures({ reference: one(picture.reference, "reference"), mine: one(canvas.toDataURL(), "yours") });
-    root.querySelector(".play-pair").hidden = true;
   }
 
   #sum(step, tests, pictures, built) {
