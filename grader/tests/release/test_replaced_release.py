@@ -98,6 +98,7 @@ def test_release_and_page_go_out_together_or_not_at_all(
     assert ((older / PLACE).read_bytes() != before) == written
     assert (older / "build" / "notes.txt").read_text("utf-8") == "mine"
     found = {path.name: path.read_text("utf-8") for path in page.out.glob("*")}
+    assert (found.pop(".raysteps-page.json", None) is not None) == written, "which says what is the page's own"
     assert found == (
         {"index.html": "<html data-published >", "offline.js": "", "a.js": "of the page"} if written else {}
     )
