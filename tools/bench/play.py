@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # only this command waits for it
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
 _MILLISECONDS = 180_000  # until a step was tested and drawn
 _NUMBER = re.compile(r"\d")
-_SUMMED = "() => /tests pass|compile/.test(document.getElementById('play-status').textContent)"
+_SUMMED = "() => /tests pass|does not compile/.test(document.getElementById('play-status').textContent)"
 
 
 @contextmanager

@@ -148,7 +148,8 @@ _WHOLE = re.compile(
     r"^<!-- whole kit -->\n.*?^<!-- end -->\n|<!-- whole kit -->.*?<!-- end -->", re.MULTILINE | re.DOTALL
 )
 _STUDENTS = re.compile(r"<!-- students'\s+kit:\s*(.*?)\s*-->", re.DOTALL)
-_MARK = re.compile(r"<!-- *(?:whole\s+kit|end(?! [\w-]+ -->)|students'\s+kit)\b")
+_MARK = re.compile(r"<!-- *(?:whole\s+kit|end|students'\s+kit)\b")
+_MADE = re.compile(r"^<!-- (?:begin|end) [\w-]+ -->\n", re.MULTILINE)  # around what a command writes into a page
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _GAP = re.compile(r"\n{3,}")
 
@@ -164,6 +165,7 @@ def _without_gaps(text: str) -> str:
 
 def for_students(page: str, text: str) -> str:
     """The page as a students' kit has it."""
+    text = _MADE.sub("", text)
     if not _MARK.search(text):
         return text
     chosen = _STUDENTS.sub(lambda found: found[1], _WHOLE.sub("", text))
