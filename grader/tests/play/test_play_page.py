@@ -183,6 +183,21 @@ def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[
     _says(page, r"Step 01 is right")
 
 
+def test_headers_are_those_that_the_source_includes(page: "Page", solved: dict[str, str]) -> None:
+    """More than the stub has are compiled on top of its own; one of these that was taken away is missed."""
+    from playwright.sync_api import expect
+
+    right, own = solved["01-camera-rays"], "#include <glm/trigonometric.hpp>\n"
+    assert own in right
+    save(page, right.replace(own, f"{own}#include <array>\n") + "const std::array<int, 1> mine{};\n")
+    _says(page, r"Step 01 is right")
+    save(page, right.replace(own, ""))
+    _says(page, r"It does not compile")
+    expect(page.locator("#play-problems")).to_contain_text("no member named 'radians' in namespace 'glm'")
+    save(page, right.replace(own, f"{own}#include <no/such.hpp>\n"))
+    expect(page.locator("#play-problems")).to_contain_text("'no/such.hpp' file not found")
+
+
 def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
