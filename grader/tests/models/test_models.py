@@ -132,12 +132,17 @@ def test_z_can_be_up(tmp_path: Path) -> None:
 
 
 def test_what_is_not_beside_the_model_is_named(obj: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (obj.parent / "pictures" / "half.png").unlink()
-    parts, missing = read_model(obj)
-    assert missing == [".\\pictures\\half.png"]
+    texture = obj.parent / "pictures" / "half.png"
+    texture.write_bytes(texture.read_bytes()[:-30])
+    parts, unusable = read_model(obj)
+    assert unusable == [".\\pictures\\half.png, which is no picture, or only a part of one"]
+    assert all(part.material.texture is None for part in parts)
+    texture.unlink()
+    parts, unusable = read_model(obj)
+    assert unusable == [".\\pictures\\half.png, which is not there"]
     assert all(part.material.texture is None for part in parts)
     (obj.parent / "two.mtl").unlink()
-    assert read_model(obj)[1] == ["two.mtl"]
+    assert read_model(obj)[1] == ["two.mtl, which is not there"]
 
 
 @pytest.mark.parametrize(
@@ -147,6 +152,9 @@ def test_what_is_not_beside_the_model_is_named(obj: Path, capsys: pytest.Capture
         ("none.obj", None, r"none\.obj: is not there; expected a model"),
         ("a.ply", b"ply, or not", r"a\.ply: is no such model, or only a part of one"),
         ("a.obj", b"v 0 0 0\n", r"a\.obj: expected triangles, found none"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", r"a\.obj: a face names a corner that is not there"),
+        ("a.gltf", b'{"asset": {"version": "1.0"}}', r"a\.gltf: expected glTF 2\.0"),
+        ("a.gltf", b'{"asset": {"version": "2.0"}, "buf', r"a\.gltf: is no such model, or only a part of one"),
         ("a.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", r"of some size, found a point"),
         ("a.obj", b"v nan 1 1\nv 1 2 1\nv 1 1 1\nf 1 2 3\n", r"corner \d+: expected numbers within a thousand million"),
         (

@@ -12,7 +12,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import content_hash
 from raysteps.common.text import count
 from raysteps.course.manifest import read_steps
-from raysteps.course.project import Project
+from raysteps.course.project import Project, is_of_part_two
 from raysteps.models import ENDINGS
 
 _MESHES = "11"  # the step from which on scenes have meshes and textures
@@ -41,13 +41,13 @@ def _write(model: Path, out: Path, *, z_up: bool, textures: bool) -> list[str]:
     from raysteps.models.mesh_file import read_model  # trimesh takes its time
     from raysteps.models.scene_around import write_nff, write_pbrt
 
-    parts, missing = read_model(model, z_up=z_up)
-    if out.suffix.lower() == ".nff":
-        write_nff(parts, out)
-    else:
+    parts, unusable = read_model(model, z_up=z_up)
+    if is_of_part_two(out):
         write_pbrt(parts, out, textures=textures)
+    else:
+        write_nff(parts, out)
     triangles = sum(len(part.triangles) for part in parts)
-    notes = [f"{model}: it names {name}, which is not there; it is drawn without" for name in missing]
+    notes = [f"{model}: it names {file}; it is drawn without" for file in unusable]
     return [*notes, f"{model.name}: {count(triangles, 'triangle')} of {count(len(parts), 'material')}"]
 
 

@@ -1,5 +1,7 @@
 """What a file of meshes and materials holds: OBJ with MTL, glTF, PLY, STL and OFF, read by trimesh."""
 
+import io
+import json
 import logging
 import os
 from collections.abc import Sequence
@@ -26,6 +28,7 @@ _GREY = np.full(3, 0.7)
 _FARTHEST = 1e9  # as the readers of scenes have it
 _LONGEST_SIDE = 8192  # of a texture, likewise
 _LARGEST_FILE = 1 << 30
+_PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tga")
 _MAX_CORNERS = 1 << 24  # a scene counts them in single precision
 
 
@@ -177,22 +180,37 @@ def _check(path: Path, parts: Sequence[Part]) -> None:
 
 
 class _Beside(FilePathResolver):
-    """The files that a model names, from wherever it was written; what is not there is kept in mind, since trimesh
+    """The files that a model names, from wherever it was written; what cannot be used is kept in mind, since trimesh
     goes on without it."""
 
     def __init__(self, model: Path) -> None:
         super().__init__(os.fspath(model), allow_anywhere=True)
         self.missing: list[str] = []
+        self.broken: list[str] = []
+
+    @property
+    def notes(self) -> list[str]:
+        return [
+            *(f"{name}, which is not there" for name in self.missing),
+            *(f"{name}, which is no picture, or only a part of one" for name in self.broken),
+        ]
 
     def get(self, name: str) -> bytes:
         path = self.absolute(name.replace("\\", "/"))
         try:
             if not path.is_file() or path.stat().st_size > _LARGEST_FILE:  # no pipe, which may never end
                 raise FileNotFoundError(name)
-            return path.read_bytes()
+            data = path.read_bytes()
         except OSError:
             self.missing.append(name)
             raise
+        if path.suffix.lower() in _PICTURES:
+            try:
+                Image.open(io.BytesIO(data)).load()
+            except Exception as error:  # Pillow's many
+                self.broken.append(name)
+                raise FileNotFoundError(name) from error
+        return data
 
 
 class _Said(logging.Handler):
@@ -213,6 +231,9 @@ def _load(path: Path, beside: _Beside) -> list[Part]:
     try:
         with path.open("rb") as file, np.errstate(all="ignore"):
             ending = path.suffix.lower().removeprefix(".")
+            if ending == "gltf":
+                json.load(file)  # where it is none, trimesh looks for another file
+                file.seek(0)
             scene = trimesh.load_scene(file, file_type=ending, resolver=beside, process=False)
             parts = []
             for node in scene.graph.nodes_geometry:
@@ -228,8 +249,18 @@ def _load(path: Path, beside: _Beside) -> list[Part]:
     return parts
 
 
+def _fault(error: Exception) -> str:
+    """What trimesh stumbled over, for the person whose file it is."""
+    said = reason(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
+    if isinstance(error, NotImplementedError):
+        return f"expected glTF 2.0 where it is glTF; found: {error}"
+    if "out of bounds" in said:
+        return f"a face names a corner that is not there; found: {error}"
+    return f"is no such model, or only a part of one; {EXPECTED}, found: {said}"
+
+
 def read_model(path: Path, *, z_up: bool = False) -> tuple[list[Part], list[str]]:
-    """The parts of a model, and the names of files that it asks for and that are not there."""
+    """The parts of a model, and which files it asks for that cannot be used, and why."""
     if path.suffix.lower() not in ENDINGS:
         raise UsageError(f"{path}: {EXPECTED}")
     if not path.is_file():
@@ -242,7 +273,6 @@ def read_model(path: Path, *, z_up: bool = False) -> tuple[list[Part], list[str]
     except Exception as error:  # trimesh lets pass whatever goes wrong in it with a broken file
         if beside.missing:
             raise UsageError(f"{path}: expected {beside.missing[0]} beside it, found nothing there") from error
-        said = reason(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
-        raise UsageError(f"{path}: is no such model, or only a part of one; {EXPECTED}, found: {said}") from error
+        raise UsageError(f"{path}: {_fault(error)}") from error
     _check(path, parts)
-    return [_turned(part) for part in parts] if z_up else parts, beside.missing
+    return [_turned(part) for part in parts] if z_up else parts, beside.notes
