@@ -37,7 +37,6 @@ from tools.test_submissions import right_ones
 
 FACTORS = (1.01, 1.02, 1.05)
 _SECONDS = 120.0  # of a processor, for one function
-_PART_TWO = 2
 
 
 @dataclass(frozen=True)
@@ -242,7 +241,7 @@ def measure(
 
 def errors(project: Project, options: ErrorOptions, console: Console, say: ProgressCallback) -> int:
     """Measures and prints; 1 when a right solution was called wrong."""
-    steps = [step for step in choose(kit_steps(project), options.only) if step.part == _PART_TWO]
+    steps = [step for step in choose(kit_steps(project), options.only) if step.is_in_part_two]
     if not steps:
         raise UsageError("expected steps of part two, whose grades are left to chance")
     start = time.monotonic()

@@ -285,7 +285,7 @@ def test_a_new_scene_never_takes_the_place_of_a_file(
     [
         (["--size", "640"], "expected WxH in pixels, each from 160 to 8192, like 1600x900"),
         (["--size", "100x9000"], "expected WxH in pixels"),
-        (["--samples", "10"], "expected 1, 4, 9, 16, 25, 36, 49 or 64, found '10'"),
+        (["--samples", "10"], "10: expected a square number from 1 to 64, like 16"),
         (["--threads", "0"], "expected a whole number from 1 to 1024"),
         (["--name", "x" * 61], "expected one line of at most 60 letters"),
         (["--impl", "yours"], "invalid choice"),

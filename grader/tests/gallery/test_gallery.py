@@ -92,6 +92,9 @@ def test_pictures_of_part_two_take_samples_and_are_smaller(project: Project) -> 
     )
     ninth = picture_args(every[8], studio, PictureOptions("64x48"))
     assert ninth == ("--step", "9", "--size", "64x48")
+    in_capitals = replace(studio, path=Path("STUDIO.PBRT"))
+    assert picture_args(tenth, in_capitals, PictureOptions()) == picture_args(tenth, studio, PictureOptions())
+    assert in_capitals.shows(every[10])
 
 
 @pytest.mark.parametrize(

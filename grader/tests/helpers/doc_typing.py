@@ -79,7 +79,7 @@ class Typist:
         return found
 
     def _later_parts(self) -> set[str]:
-        return {step.id for step in kit_steps(self.workshop.original) if step.part > 1}
+        return {step.id for step in kit_steps(self.workshop.original) if step.is_in_part_two}
 
     def _both_parts(self) -> dict[str, str]:
         course = self.workshop.folder / "both-parts.toml"

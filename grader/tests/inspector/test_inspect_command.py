@@ -18,7 +18,7 @@ from raysteps.cli.render import build_program
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import UsageError
 from raysteps.common.process import run
-from raysteps.course.manifest import read_steps
+from raysteps.course.manifest import read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.images.compare import read_ppm
 from raysteps.inspector.divergence import find_divergence
@@ -125,16 +125,16 @@ def test_how_a_program_of_a_student_may_end(tmp_path: Path, text: str, says: str
     assert ended.record is None
 
 
-def test_the_last_step_that_still_works_is_found(tmp_path: Path) -> None:
+def test_the_last_step_that_still_works_is_found(tmp_path: Path, project: Project) -> None:
     program = script(tmp_path, 'test "$5" -lt 5 || kill -SEGV $$')
-    assert last_good_step(program, InspectOptions("scene.nff", "1", "2", 8)) == 4
+    assert last_good_step(program, InspectOptions("scene.nff", "1", "2", 8), read_all_steps(project)) == 4
 
 
-def test_a_path_is_asked_for_where_there_are_paths(tmp_path: Path) -> None:
+def test_a_path_is_asked_for_where_there_are_paths(tmp_path: Path, project: Project) -> None:
     options = InspectOptions("a.pbrt", "1", "2", 13, path="7")
     assert options.words() == ["a.pbrt", "1", "2", "--step", "13", "--path", "7"]
     program = script(tmp_path, 'case "$*" in *--step\\ 9\\ *--path*) exit 2 ;; *--step\\ 12*) kill -SEGV $$ ;; esac')
-    assert last_good_step(program, options) == 11
+    assert last_good_step(program, options, read_all_steps(project)) == 11
 
 
 def test_two_paths_of_a_pixel_are_two_records(project: Project, program: Path) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.cli import STUDENTS_KIT, add_impl
+from raysteps.cli import STUDENTS_KIT, add_impl, picture_size, square_number
 from raysteps.cli.render import build_program, run_raytrace, scene_there
 from raysteps.cli.todo_steps import built_trees, unfinished
 from raysteps.common.errors import UsageError, reason
@@ -20,7 +20,7 @@ from raysteps.common.platform import own_command
 from raysteps.common.text import clean, count, join_and
 from raysteps.common.text import size as shown_size
 from raysteps.course.manifest import Step, read_steps
-from raysteps.course.project import Project
+from raysteps.course.project import Project, is_of_part_two
 from raysteps.finale.denoising import refuse_without_denoiser
 from raysteps.finale.finale_page import Finale, Station, can_be_written, finale_page, in_words, poster
 from raysteps.finale.own_pictures import NotDrawn, OwnProgram, Reach, reach_of
@@ -33,28 +33,11 @@ _SCENE, _TITLE = "generated/ripples.nff", "Ripples"
 _TEMPLATE = "template.nff"
 _SIZE, _SMALL_SIZE = "1600x900", "640x360"
 _SAMPLES, _FEW_SAMPLES, _NOISY_SAMPLES = 9, 4, 64
-_OF_PART_TWO = ".pbrt"
 _BLACK = "The picture is black: lamps that have a size shine from step 12 on."
 _SIDE = (160, 8192)  # pixels
-_SQUARES = [side * side for side in range(1, 9)]
+_MAX_SAMPLES = 64
 _LONGEST = 60
 _BAD_SCENE = UsageError.exit_code  # raytrace has said where
-
-
-def _size(word: str) -> str:
-    found = re.fullmatch(r"([0-9]{1,5})x([0-9]{1,5})", word)
-    if found is None or not all(_SIDE[0] <= int(side) <= _SIDE[1] for side in found.groups()):
-        raise argparse.ArgumentTypeError(
-            f"{word}: expected WxH in pixels, each from {_SIDE[0]} to {_SIDE[1]}, like {_SIZE}"
-        )
-    return word
-
-
-def _samples(word: str) -> int:
-    known = [str(square) for square in _SQUARES]
-    if word not in known:
-        raise argparse.ArgumentTypeError(f"expected {', '.join(known[:-1])} or {known[-1]}, found '{word}'")
-    return int(word)
 
 
 def _words(word: str) -> str:
@@ -85,13 +68,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         size, samples = f"{_SIZE}, without a tree {size}", f"{_SAMPLES}, without a tree {samples}"
     parser.add_argument(
         "--size",
-        type=_size,
+        type=partial(picture_size, *_SIDE, _SIZE),
         metavar="WxH",
         help=f"of the picture, from {_SIDE[0]} to {_SIDE[1]} pixels a side ({size}; of your own scene what it says)",
     )
     parser.add_argument(
         "--samples",
-        type=_samples,
+        type=partial(square_number, _MAX_SAMPLES),
         metavar="N",
         help=f"rays for each pixel: 1, 4, 9, 16 ... 64 ({samples}), of part two {_NOISY_SAMPLES}",
     )
@@ -133,8 +116,8 @@ def _reach(project: Project, impl: str, *, part_two: bool) -> Reach:
             f"step {first.number} is not written yet, and without it there is no picture: expected its functions in "
             f"steps/{first.path.as_posix()}; {own_command()} watch {first.number}"
         )
-    if part_two and not any(step.part > 1 for step in reach.drawn):
-        raise UsageError(f"a scene that ends in {_OF_PART_TWO} is for part two: expected step 10, and all before it")
+    if part_two and not any(step.is_in_part_two for step in reach.drawn):
+        raise UsageError("a scene that ends in .pbrt is for part two: expected step 10, and all before it")
     return reach
 
 
@@ -251,7 +234,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         return _new_scene(project, arguments.new, console)
     scene = arguments.scene or os.fspath(project.scenes / _SCENE)
     scene = scene_there(project, scene)
-    part_two = Path(scene).suffix.lower() == _OF_PART_TWO
+    part_two = is_of_part_two(Path(scene))
     if arguments.denoise:
         if not part_two:
             raise UsageError("--denoise: expected a scene of part two (.pbrt): what part one draws has no noise")

@@ -1,14 +1,15 @@
 """The command `gallery`: chosen scenes after every step, on one page."""
 
 import argparse
-import re
 from collections.abc import Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 
+from raysteps.cli import picture_size, square_number
 from raysteps.common.errors import UsageError
 from raysteps.common.files import usable_folder, write_out
 from raysteps.common.text import size as shown_size
@@ -31,20 +32,7 @@ from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
 _LEAST, _MAX = 16, 2048  # pixels along a side
-_MAX_SIDE = 64  # samples along the side of a pixel
-
-
-def _size(word: str) -> str:
-    found = re.fullmatch(r"([0-9]{1,5})x([0-9]{1,5})", word)
-    if found is None or not all(_LEAST <= int(side) <= _MAX for side in found.groups()):
-        raise argparse.ArgumentTypeError(f"{word}: expected WxH in pixels, each from {_LEAST} to {_MAX}, like 800x600")
-    return word
-
-
-def _samples(word: str) -> int:
-    if not re.fullmatch(r"[0-9]{1,4}", word) or int(word) not in (side * side for side in range(1, _MAX_SIDE + 1)):
-        raise argparse.ArgumentTypeError(f"{word}: expected a square number from 1 to {_MAX_SIDE**2}, like 100")
-    return int(word)
+_MAX_SAMPLES = 4096  # of a pixel
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,9 +47,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--mine", action="store_true", help="show the pictures of your own steps, too")
     sizes = "800x600; 480x360 for scenes of part two"
-    parser.add_argument("--size", type=_size, metavar="WxH", help=f"of the pictures ({sizes})")
+    size = partial(picture_size, _LEAST, _MAX, "800x600")
+    parser.add_argument("--size", type=size, metavar="WxH", help=f"of the pictures ({sizes})")
+    number = partial(square_number, _MAX_SAMPLES)
     samples = f"of a pixel in scenes of part two: four times as many halve the noise ({SAMPLES})"
-    parser.add_argument("--samples", type=_samples, default=SAMPLES, metavar="N", help=samples)
+    parser.add_argument("--samples", type=number, default=SAMPLES, metavar="N", help=samples)
 
 
 def _entry(

@@ -20,7 +20,7 @@ from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
-from raysteps.course.manifest import chosen_step, read_steps
+from raysteps.course.manifest import chosen_step, read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import write_page
@@ -106,8 +106,8 @@ def _say_unfinished(project: Project, options: InspectOptions) -> None:
         print(f"raysteps: step {step.number}: {join_and(functions)} not written yet", file=sys.stderr)
 
 
-def _tell_problem(inspected: InspectResult, program: Path, options: InspectOptions) -> None:
-    good = last_good_step(program, options)
+def _tell_problem(project: Project, inspected: InspectResult, program: Path, options: InspectOptions) -> None:
+    good = last_good_step(program, options, read_all_steps(project))
     up_to = f" With --step {good} it comes to its end." if 0 < good < options.step else ""
     print(f"raysteps: {whose(program)} {inspected.problem}{up_to}", file=sys.stderr)
 
@@ -135,7 +135,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     reference = build_program(tree, "inspect", "reference") if arguments.against else None
     inspected = inspect(program, options)
     if inspected.problem:
-        _tell_problem(inspected, program, options)
+        _tell_problem(project, inspected, program, options)
         return 1
     _write_json(arguments, inspected, console)
     pictures = {}

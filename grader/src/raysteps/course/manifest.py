@@ -76,6 +76,11 @@ class Step:
         return weights.get(function, 0.0) / sum(self.function_weights)
 
     @property
+    def is_in_part_two(self) -> bool:
+        """There a pixel is the mean of many samples, and lamps have a size."""
+        return self.part > 1
+
+    @property
     def is_about_a_tree(self) -> bool:
         """Whether it changes what a picture costs, and not what it shows."""
         return any(case.has_tree for case in self.images)

@@ -57,6 +57,11 @@ def here() -> Project:
 # Scenes that the generator makes when they are needed.
 
 
+def is_of_part_two(scene: Path) -> bool:
+    """Whether it is in pbrt's format: NFF knows what part one draws."""
+    return scene.suffix.lower() == ".pbrt"
+
+
 def generated(project: Project, kind: str, size: int) -> Path:
     """The generated scene of that kind and size, made once."""
     path = project.build / "scenes" / f"{kind}-{size}.nff"

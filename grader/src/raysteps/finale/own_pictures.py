@@ -44,7 +44,7 @@ class Reach:
 
     def shows(self, step: Step) -> bool:
         """Whether the page has a picture after that step, or a word why there is none."""
-        return step.part > 1 or not self.part_two
+        return step.is_in_part_two or not self.part_two
 
     @property
     def trees(self) -> dict[str, str]:
@@ -56,7 +56,7 @@ class Reach:
     @property
     def tree(self) -> str:
         """The one to draw with. Where part one is no part of the course the reference stands in for it."""
-        is_given = all(step.part > 1 for step in (*self.drawn, *self.missing))
+        is_given = all(step.is_in_part_two for step in (*self.drawn, *self.missing))
         return next(reversed(self.trees), "octree" if is_given else "none")
 
     def accel_of(self, step: Step) -> str:

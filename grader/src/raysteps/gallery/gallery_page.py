@@ -93,5 +93,5 @@ def gallery_page(steps: Sequence[Step], scenes: Sequence[GalleryEntry]) -> str:
     plain = [album.sources[picture] for picture in (pictures[0], pictures[-1]) if picture is not None]
     context = {"steps": shown, "scenes": entries, "mine": any(one.mine for one in scenes), "plain": plain}
     styles = (*COMPARE_STYLES, "gallery", "gallery-strip")
-    title = _TITLE if any(step.part > 1 for step in steps) else _TITLE_OF_PART_ONE
+    title = _TITLE if any(step.is_in_part_two for step in steps) else _TITLE_OF_PART_ONE
     return render_page("gallery", title, context, (*COMPARE_SCRIPTS, *_SCRIPTS), styles, data)

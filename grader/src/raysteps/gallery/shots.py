@@ -10,7 +10,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import join_and, printable, shorten
 from raysteps.course.manifest import Step, earlier
-from raysteps.course.project import Project, generated
+from raysteps.course.project import Project, generated, is_of_part_two
 from raysteps.course.stubs import unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import trouble
@@ -85,7 +85,7 @@ class GalleryScene:
     last: int = _LAST
 
     def shows(self, step: Step) -> bool:
-        if self.path.suffix == ".nff" and step.part > 1:
+        if step.is_in_part_two and not is_of_part_two(self.path):
             return step.index == _LAST_OF_NFF
         return self.first <= step.index <= self.last
 
@@ -169,10 +169,10 @@ class PictureOptions:
 
 def picture_args(step: Step, scene: GalleryScene, options: PictureOptions) -> tuple[str, ...]:
     """Of raytrace. Before there is a tree the reference's saves time; the picture is the same."""
-    noisy = scene.path.suffix == ".pbrt"
+    noisy = is_of_part_two(scene.path)
     size = options.size or (_SIZE_OF_PART_TWO if noisy else _SIZE)
     early = ("--accel", "octree") if step.index < _TREE else ()
-    samples = ("--samples", str(options.samples)) if noisy and step.part > 1 else ()
+    samples = ("--samples", str(options.samples)) if noisy and step.is_in_part_two else ()
     return ("--step", str(step.index), "--size", size, *early, *samples)
 
 

@@ -1,19 +1,20 @@
 """The program inspect: run, and its record read."""
 
 import tempfile
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from raysteps.common.documents import Malformed, parse
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import in_seconds, printable
+from raysteps.course.manifest import Step
 from raysteps.inspector.model import Record
 
 _SECONDS = 30
 _MAX_BYTES = 64 << 20
 _USAGE = 2
-_FIRST_WITH_SAMPLES = 10
 
 
 @dataclass(frozen=True)
@@ -27,10 +28,13 @@ class InspectOptions:
     options: tuple[str, ...] = ()
     path: str | None = None  # which sample of the pixel; there is but one before part two
 
-    def words(self, step: int | None = None) -> list[str]:
-        number = step or self.step
-        path = () if self.path is None or (step is not None and step < _FIRST_WITH_SAMPLES) else ("--path", self.path)
-        return [self.scene, self.x, self.y, "--step", str(number), *self.options, *path]
+    def words(self) -> list[str]:
+        path = () if self.path is None else ("--path", self.path)
+        return [self.scene, self.x, self.y, "--step", str(self.step), *self.options, *path]
+
+    def of_step(self, step: Step) -> "InspectOptions":
+        """The same pixel after an earlier step."""
+        return replace(self, step=step.index, path=self.path if step.is_in_part_two else None)
 
 
 @dataclass(frozen=True)
@@ -75,10 +79,14 @@ def inspect(program: Path, options: InspectOptions, *, seconds: float = _SECONDS
     return InspectResult(printable(outcome.stdout), record, said, problem)
 
 
-def last_good_step(program: Path, options: InspectOptions, *, seconds: float = 10) -> int:
+def last_good_step(program: Path, options: InspectOptions, steps: Sequence[Step], *, seconds: float = 10) -> int:
     """Up to which step the program comes to its end; 0: not even in the first."""
-    for step in range(1, options.step):
-        outcome = run([program, *options.words(step), "--quiet"], seconds=seconds)
+    good = 0
+    for step in steps:
+        if step.index >= options.step:
+            break
+        outcome = run([program, *options.of_step(step).words(), "--quiet"], seconds=seconds)
         if outcome.code != 0 or outcome.timed_out:
-            return step - 1
-    return options.step - 1
+            break
+        good = step.index
+    return good
