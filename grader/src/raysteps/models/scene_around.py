@@ -15,10 +15,10 @@ _ANGLE = 35.0  # degrees, upright
 _FROM = np.array([0.55, 0.4, 1.0]) / np.linalg.norm([0.55, 0.4, 1.0])
 _MARGIN = 1.08
 _LIGHTS = (  # where to, and how bright: the sun, and a little from the other side for the shadows
-    (np.array([0.3, 1.0, 0.6]), np.array([0.9, 0.87, 0.8])),
+    (np.array([0.3, 1.0, 0.6]), np.array([0.8, 0.77, 0.71])),
     (np.array([-1.0, 0.6, 0.7]), np.array([0.16, 0.18, 0.22])),
 )
-_SKY = np.array([0.45, 0.55, 0.7])
+_SKY = np.array([0.28, 0.35, 0.45])  # from step 13 on it lights, too
 _IN_PART_ONE = 2.0  # so much brighter, since c / (c + 1) makes it darker
 _FLOOR = Material(np.array([0.55, 0.53, 0.5]))
 
