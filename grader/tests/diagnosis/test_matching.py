@@ -122,6 +122,16 @@ def test_what_another_function_spoils_is_no_mistake_of_its_own() -> None:
         assert [one.mutant.id for one in name_mistakes([found])] == names
 
 
+def test_what_a_wrong_function_spoils_is_no_mistake_of_a_right_one() -> None:
+    spoilt, own = _wrong("4 5 6", *range(30)), _wrong("6 6 6", *range(20))
+    known = MutantFingerprint({"specular": spoilt, "diffuse": own}, {})
+    evidence = _evidence({"mirror": _wrong("7 8 9", *range(20)), "specular": spoilt})
+    evidence = replace(evidence, right_apart=("specular",))
+    for right, names in (((), ["elsewhere"]), (("diffuse",), [])):
+        found = match(_mutant("elsewhere", "diffuse"), known, replace(evidence, right=right))
+        assert [one.mutant.id for one in name_mistakes([found])] == names
+
+
 def test_two_mistakes_in_two_functions_are_two() -> None:
     one, other = _wrong("4 5 6", *range(30)), _wrong("7 8 9", *range(20))
     known = {_mutant("first"): {"mirror": one}, _mutant("second", "diffuse"): {"diffuse": other}}

@@ -156,6 +156,8 @@ def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) ->
     found.denied = is_right and len(fingerprint.answers.get(own, {})) >= _FEWEST_DENYING
     for name, mine in evidence.answers.items():
         mistake = fingerprint.answers.get(name, {})
+        if mine and found.denied and name in evidence.right_apart:
+            continue  # a wrong function before it spoils it, and the mistake sits in a right one
         if mine:
             found.functions[name] = agreement(evidence.questions[name], mistake, mine)
         elif mistake:
