@@ -362,3 +362,40 @@ TEST_CASE("frosted glass spreads what goes through it", "[14-materials][scatter_
     CHECK(most.x - least.x > 0.3F);
     CHECK(most.y - least.y > 0.3F);
 }
+
+TEST_CASE("frosted glass hides some of its microfacets, both ways", "[14-materials][scatter_glass]") {
+    const auto lambda = [](float z) { return (std::sqrt(1.0F + 0.64F * (1.0F - z * z) / (z * z)) - 1.0F) / 2.0F; };
+    const HitRecord hit = rough_hit(0.4F, 0.8F);
+    int mirrored = 0;
+    int refracted = 0;
+    many_times(1000, [&](RandomStream& random) {
+        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+        const float z = sample ? sample->direction.z : 0.0F;
+        if (std::abs(z) < 0.05F) {
+            return;
+        }
+        (z > 0.0F ? mirrored : refracted) += 1;
+        CAPTURE(sample->direction);
+        INFO("(1 + lambda of the view) / (1 + lambda of the view + lambda of the direction)");
+        REQUIRE(sample->weight.x == about((1.0F + lambda(0.4F)) / (1.0F + lambda(0.4F) + lambda(z)), 0.01F));
+    });
+    CHECK(mirrored > 20);
+    CHECK(refracted > 200);
+}
+
+TEST_CASE("frosted glass lets light out where clear glass keeps it in", "[14-materials][scatter_glass]") {
+    HitRecord hit = rough_hit(0.7F, 0.4F);
+    hit.front_face = false;
+    constexpr int k_count = 2000;
+    int out = 0;
+    many_times(k_count, [&](RandomStream& random) {
+        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+        out += sample && sample->direction.z < 0.0F ? 1 : 0;
+    });
+    const float share = static_cast<float>(out) / static_cast<float>(k_count);
+    INFO(
+        "sin 0.71 * 1.5 is above 1: the flat surface would mirror all. But microfacets that lean to the view are met "
+        "more steeply, and Fresnel's law is theirs. 43 % of the light goes out; "
+        << out << " of " << k_count << " paths did");
+    CHECK(std::abs(share - 0.426F) < 0.07F);
+}

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from raysteps.judge.cases.materials import FUNCTIONS
+from raysteps.judge.cases.microfacets import dielectric
 from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Fill, Hit, Inputs, Real, Vec, Whole, text
 from raysteps.judge.statistics import Numbers
@@ -179,3 +180,37 @@ def test_each_part_of_a_sample_of_glass_is_looked_at(line: str, said: str) -> No
     found = _said("scatter_glass", _GLASS, _clear(), line)
     assert said in found
     assert bool(said) == bool(found)
+
+
+_FROST = 0.4
+
+
+def _frosted(seed: int, *, steepest_first: bool = False) -> str:
+    view = np.array([0.6, 0.0, 0.8])
+    normals = _seen(seed, _FROST, view)
+    cosines = normals @ view
+    odds = np.random.default_rng(1000 + seed).random(_TIMES)
+    if steepest_first:  # as if the number that decides were that which chose the microfacet
+        odds = np.argsort(np.argsort(-cosines)) / _TIMES
+    is_mirrored = (odds < dielectric(cosines, 1 / 1.5))[:, None]
+    further = np.sqrt(1 - (1 - cosines**2) / 1.5**2)
+    through = (cosines / 1.5 - further)[:, None] * normals - view / 1.5
+    directions = np.where(is_mirrored, 2 * cosines[:, None] * normals - view, through)
+    kept = np.where(is_mirrored[:, 0], directions[:, 2] > 0, directions[:, 2] < 0)
+    directions = directions[kept]
+    seen = 1 + _lambda(view, _FROST)
+
+    def rows(directions: Numbers) -> str:
+        return _rows(directions, seen / (seen + _lambda(directions, _FROST)), np.ones((1, 1)), 1.0)
+
+    lost = " 0" * int((~kept).sum())
+    return f"{rows(directions)}{lost} {rows(directions[:1])}"  # and the first once more
+
+
+def test_what_is_mirrored_in_frosted_glass_is_fresnels_to_say() -> None:
+    inputs = {**_GLASS, "roughness": Real(_FROST)}
+    right = _frosted(0)
+    for seed in range(20):
+        assert not _said("scatter_glass", inputs, right, _frosted(seed))
+        said = _said("scatter_glass", inputs, right, _frosted(seed, steepest_first=True))
+        assert "which microfacet is met decides" in said

@@ -455,7 +455,8 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     right = (seen / (seen + hidden))[:, None] * np.ones(3)
     steep = np.abs(next_[:, 2]) > _LEVEL
     return (
-        _share_problem(is_mirrored, dielectric(cosines, eta), samples.nothing),
+        _share_problem(is_mirrored, dielectric(cosines, eta), samples.nothing)
+        or (_odds_problem(is_mirrored, dielectric(cosines, eta), cosines, samples.nothing) if alpha else ""),
         "the weight is wrong" if _weights_differ(samples.weights, right, steep) else "",
         rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
         "" if samples.are_specular else "a sample of glass is not specular",
@@ -470,6 +471,14 @@ def _astray(is_mirrored: Mask, normals: Numbers) -> str:
     """Of smooth glass: which of the two ways is not the one of its law."""
     off = normals[:, 2] <= 1 - 2e-4
     return f"the {'mirrored' if (off & is_mirrored).any() else 'refracted'} direction is wrong"
+
+
+def _odds_problem(is_mirrored: Mask, shares: Numbers, cosines: Numbers, nothing: int) -> str:
+    """The number that decides may be that which chose the microfacet: then steep ones are mirrored too often."""
+    steep = cosines > np.median(cosines)
+    if any(_share_problem(is_mirrored[half], shares[half], nothing) for half in (steep, ~steep)):
+        return "which microfacet is met decides whether light is mirrored, beyond Fresnel's share"
+    return ""
 
 
 def _share_problem(is_mirrored: Mask, shares: Numbers, nothing: int) -> str:
@@ -494,9 +503,20 @@ def _inside(draw: RandomSource, *, total: bool) -> Inputs:
     fill = _glass_fill(draw)
     least = _least_cosine(fill.index)
     low, high = (0.05, 0.9 * least) if total else (min(1.03 * least + 0.02, 0.97), 0.99)
+    return _from_inside(draw, low, high, fill, Real(0.0))
+
+
+def _frosted_inside(draw: RandomSource) -> Inputs:
+    """Clear glass would mirror all of it; the microfacets let through what they lean for."""
+    fill = _glass_fill(draw)
+    least = _least_cosine(fill.index)
+    return _from_inside(draw, 0.7 * least, 0.95 * least, fill, _alpha(draw, 0.3, 0.7))
+
+
+def _from_inside(draw: RandomSource, low: float, high: float, fill: Fill, roughness: Real) -> Inputs:
     hit = _hit(draw, low, high, fill)
     inside = Hit(hit.position, hit.normal, hit.ray_direction, hit.distance, fill, False)
-    return {"hit": inside, "roughness": Real(0.0), **draws(draw, 1024)}
+    return {"hit": inside, "roughness": roughness, **draws(draw, 1024)}
 
 
 _SCATTER_GLASS = Function(
@@ -513,6 +533,7 @@ _SCATTER_GLASS = Function(
         Group("refraction is impossible", lambda d: _inside(d, total=True)),
         Group("a little rough, from above", lambda d: _glass(d, 0.85, 0.98, _alpha(d, 0.03, 0.06))),
         Group("rough", lambda d: _glass(d, 0.4, 0.98, _alpha(d, 0.1, 0.6), 256)),
+        Group("rough, from inside", _frosted_inside),
         Group("rough, and a flat view", lambda d: _glass(d, 0.1, 0.25, _alpha(d, 0.6, 1.0), 2048)),
         Group("very many samples", lambda d: _glass(d, 0.3, 0.9, Real(0.0), 16_384)),
     ),
