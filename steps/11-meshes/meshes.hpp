@@ -10,7 +10,7 @@ namespace raysteps {
 
 /// How much each corner counts at a point of the triangle, the first corner's weight in x; they add up to 1. A corner's
 /// weight is the area of the small triangle between the point and the other two corners, as a share of the whole. The
-/// face has an area, and the point lies in its plane but for rounding.
+/// face has an area, and the point lies within it, on an edge or at a corner, but for rounding: no area needs a sign.
 [[nodiscard]] glm::vec3 barycentric(const MeshFace& face, const glm::vec3& point);
 
 /// The corner normals blended by those weights, unit length, and never turned away from the viewer: where the blend

@@ -88,6 +88,19 @@ TEST_CASE("barycentric: weights lead back to the point", "[11-meshes][barycentri
     }
 }
 
+TEST_CASE("barycentric: whichever way the triangle faces", "[11-meshes][barycentric]") {
+    const glm::vec3 weights(0.5F, 0.3F, 0.2F);
+    for (int axis = 0; axis < 3; ++axis) {
+        MeshFace face;  // all of it as far along that axis
+        face[0].position[axis] = face[1].position[axis] = face[2].position[axis] = 2.0F;
+        face[1].position[(axis + 1) % 3] = 4.0F;
+        face[2].position[(axis + 2) % 3] = 3.0F;
+        CAPTURE(axis);
+        INFO("seen along another axis, the triangle is a line");
+        CHECK_THAT(barycentric(face, place_in(face, weights)), IsNear(weights));
+    }
+}
+
 TEST_CASE("shading_normal: the blend, at length 1", "[11-meshes][shading_normal]") {
     const MeshFace face = round_face();
     const HitRecord hit = hit_from({0.0F, 0.0F, -1.0F});
@@ -189,6 +202,10 @@ TEST_CASE("bilinear: in the middle of a texel its own colour", "[11-meshes][bili
     CHECK_THAT(bilinear(texture, {0.75F, 0.25F}, Wrap::clamp), IsNear({0.0F, 1.0F, 0.0F}));
     INFO("v goes down");
     CHECK_THAT(bilinear(texture, {0.25F, 0.75F}, Wrap::clamp), IsNear({0.0F, 0.0F, 1.0F}));
+    INFO("3 columns, 2 rows: the first column is a sixth wide up to its middle, the second row begins at a half");
+    const Texture wide = grey(3, 2, {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F});
+    CHECK_THAT(bilinear(wide, {1.0F / 6.0F, 0.75F}, Wrap::clamp), IsNear(Color(3.0F)));
+    CHECK_THAT(bilinear(wide, {5.0F / 6.0F, 0.25F}, Wrap::clamp), IsNear(Color(2.0F)));
 }
 
 TEST_CASE("bilinear: between four texels", "[11-meshes][bilinear]") {
@@ -286,8 +303,7 @@ TEST_CASE("barycentric, shading_normal, curved_position: the handout's worked ex
     CHECK_THAT(curved_position(face, weights, point), IsNear({2.36F, 2.36F, 0.96F}));
 }
 
-TEST_CASE("texels_across, mip_level, trilinear: the handout's worked example",
-          "[11-meshes][texels_across][mip_level][trilinear]") {
+TEST_CASE("texels_across, mip_level: the handout's worked example", "[11-meshes][texels_across][mip_level]") {
     const float texels = texels_across(flat_face(), {64.0F, 64.0F}, hit_from({0.6F, 0.0F, -0.8F}, 20.0F), 0.01F);
     CHECK(texels == about(4.0));
     CHECK(mip_level(texels, 7) == about(2.0));

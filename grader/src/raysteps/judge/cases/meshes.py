@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 
-from raysteps.common.vectors import Vector, add, cross, dot, minus, times, unit
+from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
 from raysteps.judge.answers import (
     Answer,
     Tolerance,
@@ -100,6 +100,23 @@ def _moved(draw: RandomSource) -> Inputs:
     return _barycentric(Face(a, b, c), _weights(draw))
 
 
+def _upright(draw: RandomSource) -> Inputs:
+    """All of it as far along one of the axes: seen along another one, it is a line."""
+    number, level = draw.whole(0, 2), draw.real(-3, 3)
+
+    def moved(at: Vector) -> Vector:
+        x, y, z = (level if i == number else part for i, part in enumerate(at))
+        return x, y, z
+
+    def make() -> Triangle:
+        t = draw.triangle()
+        return Triangle(moved(t.a), moved(t.b), moved(t.c))
+
+    t = draw.until(lambda t: length(cross(minus(t.b, t.a), minus(t.c, t.a))) > 2, make)
+    a, b, c = (Corner(at, draw.direction(), _uv(draw)) for at in (t.a, t.b, t.c))
+    return _barycentric(Face(a, b, c), _weights(draw))
+
+
 def _on_edge(draw: RandomSource) -> Inputs:
     share, turn = draw.fine(0.1, 0.9), draw.whole(0, 2)
     shares = (share, 1 - share, 0.0)
@@ -116,6 +133,7 @@ _BARYCENTRIC = Function(
     ),
     (
         Group("any point", lambda d: _barycentric(_face(d), _weights(d))),
+        Group("upright", _upright),
         Group("simple numbers", lambda d: _barycentric(_simple_face(), _EVEN)),
         Group("a corner", lambda d: _barycentric(_face(d), _corner_weights(d))),
         Group("on an edge", _on_edge),
