@@ -137,6 +137,20 @@ TEST_CASE("turned_to: along every axis, and close to it", "[12-soft-light][turne
     }
 }
 
+TEST_CASE("turned_to: between the axes", "[12-soft-light][turned_to]") {
+    for (const float x : {1.0F, -1.0F}) {
+        for (const float y : {1.0F, -1.0F}) {
+            for (const float z : {1.0F, -1.0F}) {
+                const glm::vec3 normal = glm::vec3(x, y, z) * std::sqrt(1.0F / 3.0F);
+                CAPTURE(normal);
+                INFO("whatever is crossed with this normal must not lie along it");
+                CHECK_THAT(turned_to(normal, {0.0F, 0.0F, 1.0F}), IsNear(normal));
+                CHECK_THAT(turned_to(normal, {0.6F, 0.0F, 0.8F}), IsUnitLength());
+            }
+        }
+    }
+}
+
 TEST_CASE("unit_disk: points lie in the disk", "[12-soft-light][unit_disk]") {
     with_corners([](const glm::vec2& u) {
         CAPTURE(u.x, u.y);

@@ -173,6 +173,17 @@ TEST_CASE("cosine_direction: steep ones come more often", "[13-path-tracing][cos
     }
 }
 
+TEST_CASE("cosine_direction: between the axes", "[13-path-tracing][cosine_direction]") {
+    for (const float sign : {1.0F, -1.0F}) {
+        const glm::vec3 normal(sign * std::sqrt(1.0F / 3.0F));
+        CAPTURE(text(normal));
+        INFO("whatever is crossed with this normal must not lie along it");
+        const glm::vec3 direction = cosine_direction(normal, glm::vec2(0.5F, 0.3F));
+        CHECK_THAT(direction, IsUnitLength());
+        CHECK(glm::dot(direction, normal) > 0.0F);
+    }
+}
+
 TEST_CASE("cosine_direction: the same u gives the same direction", "[13-path-tracing][cosine_direction]") {
     const glm::vec2 u(0.37F, 0.81F);
     const glm::vec3 direction = cosine_direction(k_normals[6], u);
@@ -241,8 +252,9 @@ TEST_CASE("scatter_diffuse: nothing from a black surface", "[13-path-tracing][sc
     const glm::vec2 u(0.3F, 0.6F);
     CHECK_FALSE(scatter_diffuse(diffuse_hit(k_normals[0], k_black), u).has_value());
     CHECK_FALSE(scatter_diffuse(diffuse_hit(k_normals[0], k_white, 0.0F), u).has_value());
-    INFO("one channel is enough");
+    INFO("one channel is enough, and a little light is light");
     CHECK(scatter_diffuse(diffuse_hit(k_normals[0], Color(0.0F, 0.0F, 0.3F)), u).has_value());
+    CHECK(scatter_diffuse(diffuse_hit(k_normals[0], Color(1e-4F)), u).has_value());
 }
 
 TEST_CASE("scatter_diffuse: the handout's worked example", "[13-path-tracing][scatter_diffuse]") {
@@ -354,4 +366,16 @@ TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracin
     const Means bright = means_of({Stop{.light = k_white, .weight = Color(0.8F)}});
     CHECK(bright.light == about(5.0, 0.045));
     CHECK(bright.rays < 8.0);
+}
+
+TEST_CASE("path_light: white walls take no light", "[13-path-tracing][path_light]") {
+    INFO("a light of 1 behind 11 white walls, found by two paths of three: each of these counts 1 / 0.95^8 = 1.5");
+    std::vector<Stop> stops(11, Stop{.weight = k_white});
+    stops.push_back(Stop{.light = k_white, .scatters = false});
+    double mean = 0.0;
+    for (std::uint32_t number = 0; number < k_many; ++number) {
+        PathOfStops path(stops);
+        mean += static_cast<double>(light_along(path, number).x) / k_many;
+    }
+    CHECK(mean == about(1.0, 0.04));
 }

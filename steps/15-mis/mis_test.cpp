@@ -354,6 +354,10 @@ TEST_CASE("mis_path_light: lamps are sampled at each hit, once", "[15-mis][mis_p
     INFO("0.9 + 0.5 * 1.8 + 0.25 * 0.9");
     CHECK_THAT(light_along(path), IsNear(Color(2.025F)));
     CHECK(path.samplings == 3);
+    INFO("a lamp is a surface, too: 2, and 0.9 + 0.5 * 0.9");
+    PathOfStops from_lamp(
+        {Stop{.emission = Color(2.0F), .samples = {sample}}, Stop{.samples = {sample}, .scatters = false}});
+    CHECK_THAT(light_along(from_lamp), IsNear(Color(3.35F)));
 }
 
 TEST_CASE("mis_path_light: three bounces are sure, then roulette takes no light", "[15-mis][mis_path_light]") {

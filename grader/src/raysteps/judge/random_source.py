@@ -88,6 +88,11 @@ class RandomSource:
         x, y, z = (sign if i == number else 0.0 for i in range(3))
         return x, y, z
 
+    def diagonal(self) -> Vector:
+        """Between three axes, as near to one as to the others."""
+        side = f32(math.sqrt(1 / 3))
+        return self.sign() * side, self.sign() * side, self.sign() * side
+
     def above(self, normal: Vector, low: float, high: float = 1.0) -> Vector:
         """A direction whose cosine with the normal lies between low and high."""
         side = unit(cross(normal, self.across(normal)))

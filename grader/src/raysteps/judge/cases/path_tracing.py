@@ -110,6 +110,7 @@ _COSINE_DIRECTION = Function(
         Group("any normal", lambda d: _directions(d, d.direction())),
         Group("along an axis", lambda d: _directions(d, d.axis()), exact=True),
         Group("nearly along an axis", lambda d: _directions(d, _near_an_axis(d))),
+        Group("between the axes", lambda d: _directions(d, d.diagonal())),
         Group("very many directions", lambda d: _directions(d, d.direction(), 32_768)),
     ),
 )
@@ -209,6 +210,10 @@ def _black(draw: RandomSource) -> Fill:
     return Fill(draw.color(), 0.0) if draw.chance(0.5) else Fill((0.0, 0.0, 0.0), draw.real(0.2, 1))
 
 
+def _dark(draw: RandomSource) -> Fill:
+    return Fill(draw.color(2e-4, 8e-3), draw.real(0.2, 1))
+
+
 _SCATTER_DIFFUSE = Function(
     "scatter_diffuse",
     Answer(
@@ -220,6 +225,7 @@ _SCATTER_DIFFUSE = Function(
     (
         Group("any colour", lambda d: _scatter(d, _colored(d), d.direction(), 512)),
         Group("some channels black", lambda d: _scatter(d, _one_black(d), d.direction(), 512)),
+        Group("a dark colour", lambda d: _scatter(d, _dark(d), d.direction(), 512)),
         Group("nothing comes back", lambda d: _scatter(d, _black(d), d.direction(), 64), exact=True),
         Group("along an axis", lambda d: _scatter(d, _colored(d), d.axis(), 512), exact=True),
         Group("very many samples", lambda d: _scatter(d, _colored(d), d.direction(), 16_384)),

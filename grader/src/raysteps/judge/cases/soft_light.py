@@ -204,6 +204,7 @@ _TURNED_TO = Function(
         Group("any normal", lambda d: _turn(d.direction(), d.point(3))),
         Group("along an axis", lambda d: _turn(d.axis(), d.simple_point(3))),
         Group("nearly along an axis", lambda d: _turn(_nearly_axis(d), d.point(3))),
+        Group("between the axes", lambda d: _turn(d.diagonal(), d.point(3))),
         Group("against z", lambda d: _turn((0.0, 0.0, -1.0), d.point(3))),
         Group("along z", lambda d: _turn(d.direction(), (0.0, 0.0, d.real(-3, 3)))),
     ),
