@@ -159,7 +159,7 @@ def sphereflake(kit: BuiltKit) -> Pixels:
 
 def still_life(kit: BuiltKit) -> Pixels:
     """The picture at the top of the README: all of part two."""
-    args = ("--step", "15", "--size", "480x270", "--samples", "144")
+    args = ("--step", "15", "--size", "640x360", "--samples", "256")
     return reference_picture(kit, kit.project.scenes / "lessons" / "still-life.pbrt", args)
 
 
