@@ -366,9 +366,6 @@ TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracin
     const Means bright = means_of({Stop{.light = k_white, .weight = Color(0.8F)}});
     CHECK(bright.light == about(5.0, 0.045));
     CHECK(bright.rays < 8.0);
-}
-
-TEST_CASE("path_light: white walls take no light", "[13-path-tracing][path_light]") {
     INFO("a light of 1 behind 11 white walls, found by two paths of three: each of these counts 1 / 0.95^8 = 1.5");
     std::vector<Stop> stops(11, Stop{.weight = k_white});
     stops.push_back(Stop{.light = k_white, .scatters = false});
