@@ -1,6 +1,7 @@
 // Visible tests of step 13: directions and their density, what they count, and what a path brings.
 #include "steps/13-path-tracing/path_tracing.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -99,18 +100,28 @@ Color light_along(std::vector<Stop> stops, const Color& background = k_black) {
 
 constexpr int k_many = 20000;
 
+std::vector<glm::vec2> many_pairs(RandomStream& random) {
+    std::vector<glm::vec2> pairs(k_many);
+    std::generate(pairs.begin(), pairs.end(), [&] { return random.next_2d(); });
+    return pairs;
+}
+
 /// Of many paths: mean light in red, and mean number of rays.
 struct Means {
     double light = 0.0;
     double rays = 0.0;
 };
 Means means_of(const std::vector<Stop>& stops, int count = k_many) {
+    PathOfStops path(stops);
+    path.endless = true;
+    std::vector<PathOfStops> paths(static_cast<std::size_t>(count), path);
+    std::vector<Color> lights(paths.size());
+    for_each_in_turn(paths.size(),
+                     [&](std::size_t i) { lights[i] = light_along(paths[i], static_cast<std::uint32_t>(i)); });
     Means means;
-    for (int number = 0; number < count; ++number) {
-        PathOfStops path(stops);
-        path.endless = true;
-        means.light += static_cast<double>(light_along(path, static_cast<std::uint32_t>(number)).x) / count;
-        means.rays += static_cast<double>(path.rays) / count;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        means.light += static_cast<double>(lights[i].x) / count;
+        means.rays += static_cast<double>(paths[i].rays) / count;
     }
     return means;
 }
@@ -156,8 +167,9 @@ TEST_CASE("cosine_direction: steep ones come more often", "[13-path-tracing][cos
         double cosines = 0.0;
         double steep = 0.0;
         glm::dvec3 sum(0.0);
-        for (int i = 0; i < k_many; ++i) {
-            const glm::vec3 direction = cosine_direction(normal, random.next_2d());
+        const auto directions =
+            answers_to(many_pairs(random), [&](const glm::vec2& u) { return cosine_direction(normal, u); });
+        for (const glm::vec3& direction : directions) {
             const double cosine = static_cast<double>(glm::dot(direction, normal));
             cosines += cosine / k_many;
             steep += (cosine > std::sqrt(0.5) ? 1.0 : 0.0) / k_many;
@@ -204,8 +216,12 @@ TEST_CASE("cosine_pdf: over all directions it adds up to 1", "[13-path-tracing][
     Random random;
     INFO(random);
     double sum = 0.0;
-    for (int i = 0; i < k_many; ++i) {
-        sum += static_cast<double>(cosine_pdf(k_normals[6], random.unit_vector()));
+    std::vector<glm::vec3> directions(k_many);
+    std::generate(directions.begin(), directions.end(), [&] { return random.unit_vector(); });
+    const auto densities =
+        answers_to(directions, [](const glm::vec3& direction) { return cosine_pdf(k_normals[6], direction); });
+    for (const float density : densities) {
+        sum += static_cast<double>(density);
     }
     CHECK(4.0 * static_cast<double>(k_pi) * sum / k_many == about(1.0, 0.08));
 }
@@ -239,8 +255,8 @@ TEST_CASE("scatter_diffuse: around the normal, wherever the ray came from", "[13
     hit.ray_direction = glm::vec3(0.8F, -0.6F, 0.0F);
     RandomStream random(test_seed());
     glm::dvec3 sum(0.0);
-    for (int i = 0; i < k_many; ++i) {
-        const std::optional<ScatterSample> sample = scatter_diffuse(hit, random.next_2d());
+    const auto samples = answers_to(many_pairs(random), [&](const glm::vec2& u) { return scatter_diffuse(hit, u); });
+    for (const std::optional<ScatterSample>& sample : samples) {
         REQUIRE(sample.has_value());
         sum += glm::dvec3(sample->direction) / double{k_many};
     }
