@@ -44,3 +44,28 @@ def save(page: "Page", text: str) -> None:
     """Writes, and saves."""
     write(page, text)
     page.keyboard.press("ControlOrMeta+s")
+
+
+def drag(page: "Page", handle: "Locator", to: "Locator | tuple[float, float]") -> None:
+    """To the middle of something, or by so many pixels. Where the page moves meanwhile the handle is not caught, and so
+    does not get the focus: then once more."""
+    page.evaluate("document.activeElement?.blur()")
+    for _ in range(50):
+        handle.scroll_into_view_if_needed()
+        x, y = middle(handle)
+        page.mouse.move(x, y)
+        page.mouse.down()
+        if page.evaluate("document.activeElement !== document.body"):
+            break
+        page.mouse.up()
+    else:
+        raise AssertionError(f"{handle} was not caught")
+    to_x, to_y = (x + to[0], y + to[1]) if isinstance(to, tuple) else middle(to)
+    page.mouse.move(to_x, to_y, steps=4)
+    page.mouse.up()
+
+
+def middle(thing: "Locator") -> tuple[float, float]:
+    box = thing.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 from browser import Watched, assert_accessible, assert_no_sideways_scrolling
-from play_pages import save, says, with_packages
+from play_pages import drag, middle, save, says, with_packages
 
 from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
@@ -67,23 +67,6 @@ def _words(page: "Page", name: str) -> "Locator":
     return _figure(page, name).locator(".live-says")
 
 
-def _drag(page: "Page", handle: "Locator", to: "Locator | tuple[float, float]") -> None:
-    """To the middle of something, or by so many pixels."""
-    handle.scroll_into_view_if_needed()
-    x, y = _middle(handle)
-    page.mouse.move(x, y)
-    page.mouse.down()
-    to_x, to_y = (x + to[0], y + to[1]) if isinstance(to, tuple) else _middle(to)
-    page.mouse.move(to_x, to_y, steps=4)
-    page.mouse.up()
-
-
-def _middle(thing: "Locator") -> tuple[float, float]:
-    box = thing.bounding_box()
-    assert box is not None
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-
 def _states(project: Project, step: Step, words: str) -> str:
     """A pattern for words that the handout states, too."""
     text = (project.steps / step.id / "README.md").read_text("utf-8")
@@ -116,7 +99,7 @@ def test_the_camera_is_the_students(
     for _ in range(6):
         tip.press("ArrowRight")
     says(words, r"up \(0\.5, 0\.866, 0\); ")  # it leans by 30 degrees
-    _drag(page, tip, (400, 0))
+    drag(page, tip, (400, 0))
     says(words, r"up \(0\.9\d+, 0\.\d+, 0\); ")
     page.get_by_role("slider", name="up leans by", exact=True).fill("0")
     says(words, r"up \(0, 1, 0\); ")
@@ -166,7 +149,7 @@ def test_a_ray_meets_the_sphere_and_the_triangle_of_the_handout(
         origin.press("ArrowDown")  # to z = 3, where it is aimed at, and inside
     origin.press("ArrowUp")
     says(sphere, r"From \(4, 2, 3\.5\) along \(0, 0, -1\): a hit at the distance 4\.5, .* from the back")
-    _drag(page, origin, (200, 0))
+    drag(page, origin, (200, 0))
     says(sphere, r"From \(10, 2, 3\.5\)")
     assert_accessible(page)
 
@@ -183,7 +166,7 @@ def test_the_tone_curve_is_dragged_by_a_finger(
     assert _states(project, steps[6], "(255, 255, 64)")
     red = _figure(page, "tone").get_by_role("slider", name="Light, red", exact=True).first
     red.scroll_into_view_if_needed()
-    x, y = _middle(red)
+    x, y = middle(red)
     touch = page.context.new_cdp_session(page)
     for kind, at in (("touchStart", x), ("touchMove", x + 40), ("touchMove", 385)):
         touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": at, "y": y}]})
@@ -249,7 +232,7 @@ def test_a_ray_is_bent_by_glass_until_nothing_gets_out(
     heard = figure.get_by_role("status")
     says(heard, rf"Nothing gets into air: it is mirrored, along {mirrored}")
     origin.scroll_into_view_if_needed()
-    x, y = _middle(origin)
+    x, y = middle(origin)
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 60, y, steps=4)
@@ -277,7 +260,7 @@ def test_a_larger_shine_makes_the_highlight_narrower(
     shine.press("ArrowRight")
     says(words, r"specular \(0\.256, 0\.256, 0\.256\)")  # 0.5 times 0.8 to the third
     light = figure.get_by_role("slider", name="Light", exact=True)
-    _drag(page, light, (2000, 0))
+    drag(page, light, (2000, 0))
     says(words, r"The light is mirrored along \(-0\.7071, 0, 0\.7071\)")
     _assert_each_move_is_answered(page, "phong")
     assert_accessible(page)
@@ -301,7 +284,7 @@ def test_a_threshold_too_small_brings_acne_and_one_too_large_light(
         words,
         r"starts at \(1, 2, 0\.1\) .* \d\d? are dark and [1-9]\d\d lit .* lower than the threshold throws no shadow",
     )
-    _drag(page, figure.get_by_role("slider", name="Hit", exact=True), (2000, 0))
+    drag(page, figure.get_by_role("slider", name="Hit", exact=True), (2000, 0))
     says(words, r": lit\. ")
     _assert_each_move_is_answered(page, "shadow")
     assert_accessible(page)
@@ -320,7 +303,7 @@ def test_the_light_between_two_mirrors_grows_with_the_limit(
     limit = figure.get_by_role("slider", name="Limit of the depth").first
     limit.press("ArrowLeft")
     says(words, r"With a limit of 2, 1\.5 arrives")
-    _drag(page, limit, (2000, 0))
+    drag(page, limit, (2000, 0))
     says(words, r"With a limit of 8, 1\.99\d+ arrives")
     _assert_each_move_is_answered(page, "mirrors")
     assert_accessible(page)
@@ -337,7 +320,7 @@ def test_boxes_light_up_along_a_ray_that_is_dragged(
     assert _states(project, steps[5], "enter = 3.33, leave = 5")
     says(words, r"along \(0\.6, 0, -0\.8\): in the box from 3\.3333 to 5\. .* \d+ tests of boxes and \d+ of balls")
     aim = figure.get_by_role("slider", name="Where the ray is aimed at")
-    _drag(page, aim, (0, -2000))
+    drag(page, aim, (0, -2000))
     says(words, r"it misses the box\. No ball is hit, after \d+ tests of boxes and 0 of balls")
     assert figure.locator(".live-area").count() == 0
     for _ in range(8):
@@ -358,7 +341,7 @@ def test_each_cut_has_its_cost(opened: Opened, project: Project, steps: list[Ste
     assert _states(project, steps[8], "the cost is 1 + 2 + 4.75 = 7.75")
     figure.get_by_role("slider", name="Cut at x").fill("0.55")
     says(words, r"Left 5 in a box of 16, right 5 in a box of 38: the cut costs 7\.75")
-    _drag(page, figure.get_by_role("slider", name="Cut", exact=True), (120, 0))
+    drag(page, figure.get_by_role("slider", name="Cut", exact=True), (120, 0))
     says(words, r"Left 9 in a box of 16, right 1 in a box of 16: the cut costs 5\.")
     last = figure.get_by_role("slider", name="The last surface", exact=True)
     last.press("ArrowLeft")
@@ -385,7 +368,7 @@ def test_stratified_points_leave_less_to_chance(
     kind.press("End")
     figure.get_by_role("slider", name="Points along each side").press("End")
     says(words, r"64 points, Halton's: 32 see white, .* off by 0 \(")
-    _drag(page, figure.get_by_role("slider", name="Edge, above").first, (2000, 0))
+    drag(page, figure.get_by_role("slider", name="Edge, above").first, (2000, 0))
     says(words, r"Of the pixel 0\.75 is white")
     weighed = _words(page, "filter")
     assert _states(project, steps[9], "(0.375 · 0.9 + 0.75 · 0.3) / (0.375 + 0.75) = 0.5625 / 1.125 = 0.5")
@@ -411,13 +394,13 @@ def test_a_point_of_a_mesh_is_lifted_and_a_pixel_has_its_level(
     lifted = _states(project, steps[10], "(2.36, 2.36, 0.96)")
     says(words, rf"Weights {weights}, normal \(0\.3313, 0\.3313, 0\.8835\)\. Lifted: {lifted}")
     point = _figure(page, "mesh").get_by_role("slider", name="Point", exact=True)
-    _drag(page, point, (-2000, 2000))
+    drag(page, point, (-2000, 2000))
     says(words, r"Weights \(1, 0, 0\), normal \(0, 0, 1\)\. Lifted: \(0, 0, 0\)")
-    _drag(page, point, (2000, -100))  # no farther than to the long edge
+    drag(page, point, (2000, -100))  # no farther than to the long edge
     says(words, r"Weights \(0, ")
     assert _states(project, steps[10], "It covers 16 · 0.25 = 4 texels.")
     says(level, r"The pixel covers 4 texels: level 2 of 0 to 6\. The picture takes your level")
-    _drag(page, _figure(page, "level").get_by_role("slider", name="Distance of the hit").first, (2000, 0))
+    drag(page, _figure(page, "level").get_by_role("slider", name="Distance of the hit").first, (2000, 0))
     says(level, r"covers 20 texels: level 4\.3219 ")
     _figure(page, "level").get_by_role("slider", name="The picture takes the level").press("Home")
     says(level, r"a level 6 finer than yours: the squares break up into noise")
@@ -441,7 +424,7 @@ def test_a_lamp_is_sampled_from_a_place_that_is_dragged(
     says(words, r"density 0 by solid angle; .* brings 0\. .* is 0, with 100 that bring nothing")
     figure.get_by_role("slider", name="Lamp", exact=True).last.press("End")
     says(words, r"Each point that is seen has the density 31\.751\d ")  # 1 / (2 pi (1 - cos)), sin = 0.1
-    _drag(page, figure.get_by_role("slider", name="Lit place"), (2000, 0))
+    drag(page, figure.get_by_role("slider", name="Lit place"), (2000, 0))
     says(words, r"density 25\.385 ")
     lens = _words(page, "lens")
     direction = _states(project, steps[11], "(0.6, 0, -0.8)")
@@ -469,7 +452,7 @@ def test_directions_follow_the_normal_and_paths_end_by_chance(
     weight = _states(project, steps[12], "(0.72, 0.4, 0.08)")
     says(words, rf"u = \(0\.36, 0\.25\) .* rises by 0\.8 along the normal\. .* 0\.2546, and the weight {weight}\.")
     says(words, r"Of all 200, (9|10)\d lie in the outer half of the circle, evenly spread it is 100\.")
-    _drag(page, figure.get_by_role("slider", name="Tip of the normal"), (0, 2000))
+    drag(page, figure.get_by_role("slider", name="Tip of the normal"), (0, 2000))
     says(figure.locator("output").first, "180°")
     says(words, r"rises by 0\.8 along the normal")
     figure.get_by_role("slider", name="u", exact=True).press("ArrowDown")
@@ -500,7 +483,7 @@ def test_rough_metal_answers_for_an_eye_that_is_dragged(
     for _ in range(9):
         angle.press("ArrowRight")
     says(fresnel, r"At 45° glass mirrors 0\.0502 of .* and 1 of that from inside: none gets out\.")
-    _drag(page, angle, (2000, 0))
+    drag(page, angle, (2000, 0))
     says(fresnel, r"At 90° glass mirrors 1 of .* Metal mirrors 1\.")
     assert _states(project, steps[13], "D = 0.25 / (pi · 0.0625) = 1.2732")
     assert _states(project, steps[13], "f = 1.2732 / (4 · 1.0680 · 0.8 · 0.8) = 0.4657")
@@ -529,7 +512,7 @@ def test_two_ways_to_a_lamp_share_its_light(
     assert _states(project, steps[14], "3² / (3² + 1²) = 0.9")
     says(words, r"density 3, by the other way with 1: the weight is 0\.75 by the balance heuristic, 0\.9 by the power")
     own = _figure(page, "weights").get_by_role("slider", name="Its own density").first
-    _drag(page, own, (-2000, 0))
+    drag(page, own, (-2000, 0))
     says(words, r"density 0, .* the weight is 0 by the balance heuristic, 0 by the power")
     assert _states(project, steps[14], "1 / 1.2566 = 0.7958")
     says(ways, r"A sample of the lamp has the density 0\.7958\. ")

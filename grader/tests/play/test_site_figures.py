@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
-from play_pages import says, with_packages
+from play_pages import drag, says, with_packages
 
 from raysteps.cli.app import main
 from raysteps.common.errors import UsageError
@@ -71,13 +71,7 @@ def test_a_dragged_figure_says_what_the_handout_says(
     page.get_by_role("slider", name="Pixel y", exact=True).press("ArrowRight")
     says(words, r"pixel \(3, 1\) has the direction \(0\.8018, -0\.2673, -0\.5345\)")
     tip = page.locator("[data-figure=camera]").get_by_role("slider", name="Tip of the camera's up")
-    tip.scroll_into_view_if_needed()
-    box = tip.bounding_box()
-    assert box is not None
-    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    page.mouse.down()
-    page.mouse.move(box["x"] + 400, box["y"], steps=4)
-    page.mouse.up()
+    drag(page, tip, (400, 0))
     says(words, r"up \(0\.9\d+, 0\.\d+, 0\); ")
     page.get_by_role("button", name="Back to the start").click()
     says(words, rf"pixel \(3, 0\) has the direction {direction}")
