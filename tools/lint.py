@@ -50,7 +50,7 @@ _WEB_ALONE = "exceptions.cpp"  # of instructions that only WebAssembly has
 
 def _each_once(folder: Path, root: Path) -> Path:
     """Where the commands of a build folder stand once for each source: some belong to several programs. What only the
-    compiler of the page to work in compiles stands there as if this one did."""
+    compiler of the page to work in compiles is listed as if this one did."""
     commands = json.loads((folder / "compile_commands.json").read_text(encoding="utf-8"))
     once = {command["file"]: command for command in commands}
     like = once[str(root / _LIKE_WEB)]

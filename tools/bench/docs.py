@@ -184,7 +184,7 @@ def waits_tables(document: WaitsNumbers) -> str:
     """One line for each thing that is waited for."""
     rows = [
         (
-            f"`{row.what}`" if " " not in row.what or row.what.startswith("hint") else row.what,
+            row.what,
             str(len(row.seconds.rounds)),
             f"{row.seconds.min:.2f}",
             f"{row.seconds.median:.2f}",
@@ -202,7 +202,8 @@ def play_tables(document: PlayNumbers) -> str:
     visit = f"{document.first_bytes / 1e6:.1f} MB, and {document.first_seconds:.1f} s until its first picture"
     known = document.memory_bytes > 0
     memory = f"; in the end the page takes {document.memory_bytes / 1e9:.1f} GB of memory" if known else ""
-    words = f"{document.browser}, local server; {machine_line(document.machine)} The first visit: {visit}{memory}."
+    machine = f"{document.machine.processor}, {document.machine.cores} cores, {document.machine.system}"
+    words = f"{document.browser}, local server; {machine}. The first visit: {visit}{memory}."
     table = markdown(("step", "first save, s", "later saves, s"), rows)
     return f"{fill(words, 120, break_on_hyphens=False)}\n\n{table}"
 

@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -68,6 +69,8 @@ def _watching(kit: Project, number: str) -> Iterator[Callable[[], None]]:
     ) as process:  # fmt: skip
         assert process.stdout is not None
         lines = process.stdout
+        patience = threading.Timer(_SECONDS, process.terminate)
+        patience.start()
 
         def wait() -> None:
             if not any(_SAID.match(line) for line in lines):
@@ -76,6 +79,7 @@ def _watching(kit: Project, number: str) -> Iterator[Callable[[], None]]:
         try:
             yield wait
         finally:
+            patience.cancel()
             process.terminate()
 
 
@@ -113,7 +117,7 @@ def bench_waits(project: Project, options: WaitsOptions, console: Console) -> in
         typed = _Stopwatch(kit, console)
         with _without_compiler_cache():
             rows = [typed.row("demo, the first command", 1, "demo")]
-        rows += [typed.row(" ".join(words), options.rounds, *words) for words in _QUICK]
+        rows += [typed.row(f"`{' '.join(words)}`", options.rounds, *words) for words in _QUICK]
         for number in _WATCHED:
             with console.status(f"watching step {number}"):
                 rows.append(_save_to_picture(kit, number, options.rounds))

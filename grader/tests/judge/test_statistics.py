@@ -10,7 +10,15 @@ from raysteps.judge.answers import Verdict
 from raysteps.judge.cases.sampling import FUNCTIONS
 from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Inputs, Whole, text
-from raysteps.judge.statistics import Numbers, are_independent, chi_square_tail, has_mean, is_uniform, uneven
+from raysteps.judge.statistics import (
+    Numbers,
+    are_independent,
+    chi_square_tail,
+    has_mean,
+    is_uniform,
+    may_be_so_many,
+    uneven,
+)
 
 _SEED = 20
 
@@ -44,6 +52,18 @@ def test_a_histogram_shows_what_came_beside_what_should() -> None:
     assert even.expected == [25.0] * 16
     beside = uneven("too low", "numbers", low, np.repeat([0.01, 0.99], 1000)).histogram
     assert (beside.expected[0], beside.expected[7], beside.expected[-1]) == (200.0, 0.0, 200.0)
+
+
+def test_many_events_of_unequal_chance_are_told_from_too_many() -> None:
+    draw = np.random.default_rng(_SEED)
+    shares = draw.random(1000) * 0.02
+    assert all(may_be_so_many(int((draw.random(1000) < shares).sum()), shares, 0) for _ in range(500))
+    assert may_be_so_many(24, shares, 0)  # ten are expected
+    assert not may_be_so_many(48, shares, 0)
+    assert may_be_so_many(48, shares, 20)
+    assert may_be_so_many(990, 1 - shares, 0)
+    assert not may_be_so_many(952, 1 - shares, 0)
+    assert may_be_so_many(0, np.zeros(0), 0)
 
 
 def test_even_numbers_pass_and_uneven_ones_do_not() -> None:

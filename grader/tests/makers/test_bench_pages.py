@@ -86,7 +86,7 @@ def test_the_page_has_a_part_for_each_benchmark(project: Project) -> None:
 def test_what_is_waited_for_is_told_by_the_least_and_the_median() -> None:
     here = Machine("a processor", 2, "Linux x86_64", "GNU 12", "-O3", pinned=True)
     rows = [
-        WaitsRow("hint 01", Spread.of([0.3, 0.1, 0.2]), Spread.of([0.2, 0.2, 0.4])),
+        WaitsRow("`hint 01`", Spread.of([0.3, 0.1, 0.2]), Spread.of([0.2, 0.2, 0.4])),
         WaitsRow("watch 01, from a save to tests and pictures", Spread.of([1.0]), None),
     ]
     lines = waits_tables(WaitsNumbers(machine=here, rows=rows)).splitlines()

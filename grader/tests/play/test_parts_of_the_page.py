@@ -195,6 +195,33 @@ def test_a_page_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:
     assert {path.name for path in tmp_path.iterdir()} <= {"site", "public"}
 
 
+def test_a_page_is_published_in_the_folder_where_one_stands_and_touches_nothing_else(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, out, own = tmp_path / "site", tmp_path / "public", tmp_path / "own"
+    for folder in (made / "steps", out, own):
+        folder.mkdir(parents=True)
+    for name, text in {"index.html": "<html >", "offline.js": "", "steps/01.html": "one"}.items():
+        (made / name).write_text(text, "utf-8")
+    monkeypatch.chdir(out)
+    publish(made, Path())
+    assert (out / "steps" / "01.html").read_text("utf-8") == "one"
+    shutil.rmtree(out / "steps")
+    (out / "steps").symlink_to(own, target_is_directory=True)
+    (own / "01.html").write_text("of another folder", "utf-8")
+    with pytest.raises(UsageError, match=r"01\.html: is not of an older page"):
+        publish(made, out)
+    assert (own / "01.html").read_text("utf-8") == "of another folder"
+    (out / "steps").unlink()
+    (out / "steps").write_text("a file where the page has a folder", "utf-8")
+    with pytest.raises(UsageError, match="steps: is not of an older page"):
+        publish(made, out)
+    assert (out / "index.html").is_file()
+    (out / ".raysteps-page.json").write_text('{"schema": "raysteps/page/v1", "files": 5}', "utf-8")
+    with pytest.raises(UsageError, match="holds something else"):
+        publish(made, out)
+
+
 def test_before_there_is_a_page_there_is_nothing() -> None:
     found = PlayServer()
     with pytest.raises(HTTPError, match="404"):

@@ -193,9 +193,11 @@ def test_headers_are_those_that_the_source_includes(page: "Page", solved: dict[s
     _says(page, r"Step 01 is right")
     save(page, right.replace(own, ""))
     _says(page, r"It does not compile")
-    expect(page.locator("#play-problems")).to_contain_text("no member named 'radians' in namespace 'glm'")
+    expect(page.locator("#play-problems")).to_contain_text(
+        "no member named 'radians' in namespace 'glm'", timeout=STARTED
+    )
     save(page, right.replace(own, f"{own}#include <no/such.hpp>\n"))
-    expect(page.locator("#play-problems")).to_contain_text("'no/such.hpp' file not found")
+    expect(page.locator("#play-problems")).to_contain_text("'no/such.hpp' file not found", timeout=STARTED)
 
 
 def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, str]) -> None:

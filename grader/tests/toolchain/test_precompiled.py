@@ -10,7 +10,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.stubs import included, pristine_stub
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Output, Sandbox, Task, TaskResult, Word
-from raysteps.toolchain.compile import Compiled, StudentBuild
+from raysteps.toolchain.compile import Compiled, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import limits_of
 
@@ -74,10 +74,19 @@ def test_names_of_headers_that_a_file_does_not_include_stay_free(kit: BuiltKit, 
     headers = included(pristine_stub(kit.project, step))
     assert "<algorithm>" in headers
 
-    def code(names: list[str]) -> int:
-        source = "".join(f"#include {name}\n" for name in names) + _OWN_CLAMP
-        folder = tmp_path / str(len(names))
-        return _compiled(kit, step, source, folder, LimitsOnly()).ran.outcome.code
+    def code(more: str) -> int:
+        others = "".join(f"#include {name}\n" for name in headers if name != "<algorithm>")
+        folder = tmp_path / str(len(more))
+        return _compiled(kit, step, others + more + _OWN_CLAMP, folder, LimitsOnly()).ran.outcome.code
 
-    assert code([name for name in headers if name != "<algorithm>"]) == 0
-    assert code(headers) != 0
+    line = "#include <algorithm>\n"
+    assert code(line) != 0
+    assert [code(more) for more in ("", f"/*\n{line}*/\n", f"// {line}", f"#if 0\n{line}#endif\n")] == [0, 0, 0, 0]
+
+
+def test_messages_name_the_students_file(kit: BuiltKit, solved: dict[str, str], tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == _STEP)
+    source = f"{solved[step.id]}\nint wrong = std::clamp(1, 2.0F, 3);\n"
+    log = build_log(_compiled(kit, step, source, tmp_path, LimitsOnly()).ran)
+    assert f"from {step.file}" in log
+    assert "precompiled" not in log

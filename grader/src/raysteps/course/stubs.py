@@ -197,12 +197,17 @@ def stub_for(project: Project, step: Step) -> str:
     return make_stub((project.solutions / step.path).read_text(encoding="utf-8"), step)
 
 
-_INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*(<[^>\n]+>|\"[^\"\n]+\")", re.MULTILINE)
+_UNTIL_IT_IS_WRITTEN = '"core/unfinished.hpp"'
 
 
 def included(source: str) -> list[str]:
-    """The headers of a file's include lines, with their brackets or quotation marks."""
-    return _INCLUDE.findall(source)
+    """The headers of a file's include lines, with their brackets or quotation marks; none where it depends on
+    conditions what is included. What only a stub needs is left out."""
+    lines = " ".join(text for text, _ in placed_tokens(source)).split("\n")
+    if any(line.strip().startswith("# if") for line in lines):
+        return []
+    found = (line.strip().removeprefix("# include ") for line in lines if line.strip().startswith("# include "))
+    return [name for name in (name.replace(" ", "") for name in found) if name != _UNTIL_IT_IS_WRITTEN]
 
 
 def pristine_stub(project: Project, step: Step) -> str:

@@ -85,13 +85,30 @@ def happens_so_often(found: int, tries: int, seen: int, own_tries: int) -> bool:
     end of the range in which its probability must lie."""
     share = seen / own_tries
     unsure = DEVIATIONS * math.sqrt(share * (1 - share) / own_tries) - math.log(SIGNIFICANCE) / own_tries
-    many = found > tries * share
-    probability = min(share + unsure, 1 - 1e-12) if many else max(share - unsure, 1e-300)
+    probability = share + unsure if found > tries * share else share - unsure
+    return _binomial_tail(found, tries, probability, many=found > tries * share) >= SIGNIFICANCE
+
+
+def _binomial_tail(found: int, tries: int, probability: float, *, many: bool) -> float:
+    """How probable it is that an event comes as often in independent tries, or even more often (or as seldom)."""
+    probability = min(max(probability, 1e-300), 1 - 1e-12)
     counts = np.arange(found, tries + 1) if many else np.arange(found + 1)
     logs = np.append(0.0, np.cumsum(np.log(np.arange(1, tries + 1))))
     chances = logs[tries] - logs[counts] - logs[tries - counts]
     chances += counts * math.log(probability) + (tries - counts) * math.log1p(-probability)
-    return float(np.exp(chances).sum()) >= SIGNIFICANCE
+    return float(np.exp(chances).sum())
+
+
+def may_be_so_many(found: int, shares: Numbers, slack: int) -> bool:
+    """Whether of independent events, each with a probability of its own, so many may come; `slack`: how many of them
+    may have gone another way. From one off the mean on, tails are no heavier than those of as many events that all have
+    the mean probability (Hoeffding 1956)."""
+    tries, expected = len(shares), float(shares.sum())
+    many = found > expected
+    near = max(found - slack, 0) if many else min(found + slack, tries)
+    if abs(found - expected) <= slack + 1:
+        return True
+    return _binomial_tail(near, tries, expected / tries, many=many) >= SIGNIFICANCE
 
 
 def are_independent(first: Numbers, second: Numbers, bins: int) -> bool:

@@ -372,6 +372,7 @@ def publish(made: Path, out: Path) -> None:
     """The page itself comes last: without it, what is there so far is none. It says that it is published: then a
     browser keeps its files."""
     page, worker = "index.html", "offline.js"
+    out = out.resolve()
     check_published(out)
     with tempfile.TemporaryDirectory(prefix=f".{out.name}-new-", dir=out.parent, ignore_cleanup_errors=True) as name:
         new = Path(name) / out.name

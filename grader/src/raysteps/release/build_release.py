@@ -24,7 +24,7 @@ from raysteps.course.manifest import (
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.images.render import write_reference_image
-from raysteps.play.play_page import PlayPage, publish
+from raysteps.play.play_page import PlayPage, check_published, publish
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
 from raysteps.toolchain.build_kit import write_given_tests
@@ -220,6 +220,8 @@ def release(
             if any([leaks(new, out), made is not None and leaks(made, made)]):
                 return False
             usable(out)
+            if page:
+                check_published(page.out)
             swap(new, out)
             if page and made:
                 publish(made, page.out)

@@ -107,7 +107,7 @@ class CaseGroup:
 class Histogram:
     """How many numbers fell into each of some equal parts of their range, and how many should, on average."""
 
-    over: Text  # what the numbers are: ends "how they spread"
+    over: Text  # what the numbers are, as in "points around the middle, side by side"
     counts: list[Count]
     expected: list[Amount]
 

@@ -144,7 +144,9 @@ class Assembly:
             say(f"compiling the headers of step {step.number} for later")
             headers = included(pristine_stub(self._project, step))
             if headers:
-                precompile(self._description, self._folder / "include", headers, self._folder / "precompiled")
+                precompile(
+                    self._description, self._folder / "include", headers, self._folder / "precompiled", step.file
+                )
 
         with ThreadPoolExecutor(min(_COMPILERS, os.cpu_count() or 1)) as pool:
             list(pool.map(one, self._steps))

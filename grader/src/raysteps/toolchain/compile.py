@@ -221,7 +221,10 @@ class StudentBuild:
         write_bytes(path, source)
         description = self._kit.description
         words: list[Word] = [description.compiler, *description.compile_flags]
-        if set(included(pristine_stub(self._kit.project, step))) <= set(included(source.decode("utf-8", "replace"))):
+        needed, there = (
+            set(included(text)) for text in (pristine_stub(self._kit.project, step), source.decode("utf-8", "replace"))
+        )
+        if needed <= there:
             words += ["-I", Input(self._kit.folder / "precompiled")]  # names that the file does not include stay out
         words += include_words(description, Input(self._kit.include), [Input(it) for it in description.more_includes])
         words += compile_words(description, Input(path, step.file), Output("object"))

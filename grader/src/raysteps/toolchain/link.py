@@ -198,12 +198,12 @@ def link_placeholder(description: Description, names: Sequence[str], library: Pa
     source.unlink()
 
 
-def precompile(description: Description, include: Path, headers: Sequence[str], folder: Path) -> None:
+def precompile(description: Description, include: Path, headers: Sequence[str], folder: Path, file: str) -> None:
     """What a stub includes, most often the contract first, as g++ keeps it in memory: it takes that from `folder` where
-    a file begins with the same header, and saves more than half of the time."""
+    a file begins with the same header, and saves more than half of the time. Messages name `file` as what includes."""
     first = headers[0].strip('<">')
     whole, source = folder / f"{first}.gch", folder / f"{first}.all"
-    write_bytes(source, "".join(f"#include {header}\n" for header in headers).encode())
+    write_bytes(source, "".join([f'#line 1 "{file}"\n', *(f"#include {header}\n" for header in headers)]).encode())
     words = [description.compiler, *description.compile_flags]
     words += include_words(description, str(include), list(map(str, description.more_includes)))
     _run([*words, "-w", "-x", "c++-header", source, "-o", whole])

@@ -35,7 +35,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import DEVIATIONS, Numbers
+from raysteps.judge.statistics import Numbers, may_be_so_many
 
 _UP: Vector = (0.0, 0.0, 1.0)
 Mask = npt.NDArray[np.bool_]
@@ -477,18 +477,16 @@ def _odds_problem(is_mirrored: Mask, shares: Numbers, cosines: Numbers, nothing:
     """The number that decides may be that which chose the microfacet: then steep ones are mirrored too often."""
     steep = cosines > np.median(cosines)
     if any(_share_problem(is_mirrored[half], shares[half], nothing) for half in (steep, ~steep)):
-        return "which microfacet is met decides whether light is mirrored, beyond Fresnel's share"
+        return "whether light is mirrored depends on the microfacet by more than Fresnel's share: draw it anew"
     return ""
 
 
 def _share_problem(is_mirrored: Mask, shares: Numbers, nothing: int) -> str:
     """Each sample is mirrored with a probability of its own. Lost ones make no difference as long as they are few."""
-    expected, variance = float(shares.sum()), float((shares * (1 - shares)).sum())
-    found = float(is_mirrored.sum())
-    most = DEVIATIONS * math.sqrt(variance) + 1e-3 * len(shares) + nothing + 0.5
-    if abs(found - expected) <= most:
+    found = int(is_mirrored.sum())
+    if may_be_so_many(found, shares, nothing + math.ceil(1e-3 * len(shares))):
         return ""
-    return f"too {'much' if found > expected else 'little'} light is mirrored"
+    return f"too {'much' if found > shares.sum() else 'little'} light is mirrored"
 
 
 def _glass_fill(draw: RandomSource) -> Fill:

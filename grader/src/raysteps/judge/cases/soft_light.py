@@ -105,7 +105,7 @@ _DISK = _Places(
     "too many points lie near the rim",
     "some rings get more points than others of the same area",
     "some sides get more points than others",
-    "points from the middle to the rim, in rings of one area",
+    "points from the middle to the rim, in rings of equal area",
     "points around the middle, side by side",
 )
 _CAP = _Places(
@@ -113,7 +113,7 @@ _CAP = _Places(
     "too many points lie near the rim of what can be seen",
     "some rings get more points than others of the same solid angle",
     "some sides get more points than others",
-    "points from the middle of what can be seen to its rim, in rings of one solid angle",
+    "points from the middle of what can be seen to its rim, in rings of equal solid angle",
     "points around the middle, side by side",
 )
 _TRIANGLE = _Places(
@@ -121,7 +121,7 @@ _TRIANGLE = _Places(
     "too many points lie away from the first corner",
     "points are not spread evenly from the first corner to the side opposite to it",
     "points are not spread evenly between the second and the third corner",
-    "points from the first corner to the side opposite to it, in strips of one area",
+    "points from the first corner to the side opposite to it, in strips of equal area",
     "points from the side of the second corner to that of the third",
 )
 

@@ -361,7 +361,7 @@ function whyNot(ran) {
   return words ? `Your code gave up: ${words}` : "Your code ended the program before there was an answer.";
 }
 
-const OWNERS = { your: "the kit's", yours: "the kit's", Your: "The kit's" };
+const OWNERS = { your: "the kit's", yours: "the kit's", Your: "The kit's", Yours: "The kit's" };
 
 /** The figures of the step that is shown. */
 export class Figures {

@@ -70,7 +70,7 @@ export class Tester {
   }
 
   /** Runs all tests, or each by itself where the program did not come to its end, and shows them. `source` is what was
-   * compiled, `current` whether anybody still waits for it, and `print` hears what was printed. */
+   * compiled, `current` whether anybody still waits for it. */
   async test({ step, source, module, current }) {
     const words = ["test", "-r", "xml", "-o", "/out/report.xml"];
     const task = { module, files: {}, wanted: ["/out/report.xml"] };
