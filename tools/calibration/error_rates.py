@@ -242,8 +242,10 @@ def measure(
 def errors(project: Project, options: ErrorOptions, console: Console, say: ProgressCallback) -> int:
     """Measures and prints; 1 when a right solution was called wrong."""
     steps = [step for step in choose(kit_steps(project), options.only) if step.is_in_part_two]
-    if not steps:
-        raise UsageError("expected steps of part two, whose grades are left to chance")
+    if not steps or options.grades < 1:
+        raise UsageError(
+            "expected steps of part two, 10 to 15, whose grades are left to chance, and at least one grade"
+        )
     start = time.monotonic()
     all_rates: list[StepRates] = []
     for all_rates in measure(build_kit(project, say), steps, plain_sandbox(), options, say):

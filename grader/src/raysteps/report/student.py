@@ -282,6 +282,7 @@ def _spread(found: Histogram | None) -> dict[str, object] | None:
     parts = range(1, 1 + len(levels))
     return {
         "over": clean(found.over),
+        "count": sum(found.counts),
         "width": _WIDE,
         "height": _TALL,
         "bars": [
