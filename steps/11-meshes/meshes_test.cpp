@@ -90,7 +90,7 @@ TEST_CASE("barycentric: weights lead back to the point", "[11-meshes][barycentri
 
 TEST_CASE("barycentric: whichever way the triangle faces", "[11-meshes][barycentric]") {
     const glm::vec3 weights(0.5F, 0.3F, 0.2F);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (const int axis : {0, 1, 2}) {
         MeshFace face;  // all of it as far along that axis
         face[0].position[axis] = face[1].position[axis] = face[2].position[axis] = 2.0F;
         face[1].position[(axis + 1) % 3] = 4.0F;
