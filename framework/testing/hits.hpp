@@ -53,4 +53,13 @@ inline void check_same_hit(const Ray& ray, const std::optional<HitRecord>& expec
     }
 }
 
+/// The same for many rays: `expect` and `search` are asked for the hit of each.
+template <typename Expect, typename Search>
+void check_same_hits(const std::vector<Ray>& rays, const Expect& expect, const Search& search) {
+    const std::vector<std::optional<HitRecord>> hits = answers_to(rays, search);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check_same_hit(rays[i], expect(rays[i]), hits[i]);
+    }
+}
+
 }  // namespace raysteps::testing

@@ -21,10 +21,9 @@ namespace {
 const glm::vec3 k_down{0.0F, 0.0F, -1.0F};
 
 void check_same_hits(const Node& root, const SurfaceList& surfaces, const std::vector<Ray>& rays) {
-    const auto hits = answers_to(rays, [&](const Ray& ray) { return closest_hit_in_octree(root, ray); });
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        check_same_hit(rays[i], closest_hit(surfaces, rays[i]), hits[i]);
-    }
+    testing::check_same_hits(
+        rays, [&](const Ray& ray) { return closest_hit(surfaces, ray); },
+        [&](const Ray& ray) { return closest_hit_in_octree(root, ray); });
 }
 
 struct Occlusion {
@@ -50,7 +49,9 @@ void check_same_occlusion(const Node& root, const SurfaceList& surfaces, const s
         questions, [&](const Occlusion& asked) { return occluded_in_octree(root, asked.ray, asked.distance); });
     for (std::size_t i = 0; i < questions.size(); ++i) {
         const auto& [ray, distance, why, expected] = questions[i];
+        const std::optional<HitRecord> closest = closest_hit(surfaces, ray);
         CAPTURE(ray);
+        INFO("the closest hit: " << (closest ? text(*closest) : "a miss"));
         INFO("a distance of " << distance << ", " << why);
         const bool occluded = answers[i];
         REQUIRE(occluded == expected);

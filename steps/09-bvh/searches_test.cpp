@@ -40,10 +40,9 @@ Scene hundred_slopes() {
 }
 
 void check_same_hits(const Bvh& bvh, const SurfaceList& surfaces, const std::vector<Ray>& rays) {
-    const auto hits = answers_to(rays, [&](const Ray& ray) { return closest_hit_in_bvh(bvh, ray); });
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        check_same_hit(rays[i], closest_hit(surfaces, rays[i]), hits[i]);
-    }
+    testing::check_same_hits(
+        rays, [&](const Ray& ray) { return closest_hit(surfaces, ray); },
+        [&](const Ray& ray) { return closest_hit_in_bvh(bvh, ray); });
 }
 
 struct Occlusion {

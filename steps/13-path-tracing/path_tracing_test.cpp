@@ -386,10 +386,5 @@ TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracin
     std::vector<Stop> stops(11, Stop{.weight = k_white});
     stops.push_back(Stop{.light = k_white, .scatters = false});
     constexpr int k_paths = 2000;  // seven standard deviations are 0.11
-    double mean = 0.0;
-    for (std::uint32_t number = 0; number < k_paths; ++number) {
-        PathOfStops path(stops);
-        mean += static_cast<double>(light_along(path, number).x) / k_paths;
-    }
-    CHECK(mean == Approx(1.0).margin(0.12));
+    CHECK(means_of(stops, k_paths).light == Approx(1.0).margin(0.12));
 }

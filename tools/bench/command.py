@@ -129,6 +129,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _add_rounds(add, 5)
     words = "in the class (120)"
     add.add_argument("--submissions", type=_number(1, 1000), default=120, metavar="N", help=words)
+
     add = commands.add_parser("play", help="from a save to the picture in the page to work in, by Chromium")
     add.add_argument("steps", nargs="*", metavar="STEP", help="02, 2 or 02-intersection; all when none is given")
     _add_rounds(add, 3)

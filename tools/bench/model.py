@@ -309,32 +309,6 @@ class LoopNumbers:
     rows: Annotated[list[LoopRow], Meta(min_length=1)]
 
 
-# bench play
-
-
-@dataclass(frozen=True)
-class SaveRow:
-    """One step in the page to work in: from a save to its first picture."""
-
-    step: str
-    first: Amount
-    later: Spread
-
-
-@dataclass(frozen=True, kw_only=True)
-class PlayNumbers:
-    """How long people wait in the page to work in."""
-
-    name: ClassVar[str] = "play"
-    schema: Literal["raysteps/bench-play/v1"] = "raysteps/bench-play/v1"
-    machine: Machine
-    browser: str
-    first_bytes: Count
-    first_seconds: Amount
-    memory_bytes: Count
-    rows: Annotated[list[SaveRow], Meta(min_length=1)]
-
-
 @dataclass(frozen=True)
 class WaitsRow:
     """One thing that is waited for."""
@@ -417,6 +391,32 @@ class GradingNumbers:
     name: ClassVar[str] = "grading"
     schema: Literal["raysteps/bench-grading/v1"] = "raysteps/bench-grading/v1"
     costs: Annotated[list[Cost], Meta(min_length=1)]
+
+
+# bench play
+
+
+@dataclass(frozen=True)
+class SaveRow:
+    """One step in the page to work in: from a save to its first picture."""
+
+    step: str
+    first: Amount
+    later: Spread
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlayNumbers:
+    """How long people wait in the page to work in."""
+
+    name: ClassVar[str] = "play"
+    schema: Literal["raysteps/bench-play/v1"] = "raysteps/bench-play/v1"
+    machine: Machine
+    browser: str
+    first_bytes: Count
+    first_seconds: Amount
+    memory_bytes: Count
+    rows: Annotated[list[SaveRow], Meta(min_length=1)]
 
 
 Numbers = (

@@ -12,6 +12,7 @@ from raysteps.cli.app import main
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
+from raysteps.play.packages import registry_of
 from raysteps.release.leaks import strange
 from tools.website.live_figures import in_one_script, make_live_figures
 
@@ -45,7 +46,8 @@ def handout(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Calla
     """Its page, by the number of its step."""
     out = tmp_path_factory.mktemp("site") / "out"
     with with_packages():
-        assert main(["docs", "--live", "--out", str(out)]) == 0
+        make_live_figures(project, registry_of(None), lambda text: None)  # which the command then finds made
+    assert main(["docs", "--live", "--out", str(out)]) == 0
     steps: dict[str, Step] = {step.number: step for step in kit_steps(project)}
     return lambda number: out / "steps" / steps[number].id / "README.html"
 

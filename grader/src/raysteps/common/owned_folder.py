@@ -75,9 +75,7 @@ class OwnedFolder:
             )
         marks = {name: content_hash((new / name).read_bytes()) for name in files} if self.marked else {}
         before = self._marks(out)
-        either = {name: [*before.get(name, []), marks[name]] for name in marks} | {
-            name: before[name] for name in before if name not in marks
-        }
+        either = before | {name: [*before.get(name, []), mark] for name, mark in marks.items()}
         self._write(out, sorted({*old, *files}), either)
         for name in old:
             (out / name).unlink(missing_ok=True)

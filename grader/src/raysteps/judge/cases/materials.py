@@ -454,9 +454,10 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     seen, hidden = 1 + smith_lambda(view, alpha), smith_lambda(next_, alpha)
     right = (seen / (seen + hidden))[:, None] * np.ones(3)
     steep = np.abs(next_[:, 2]) > _LEVEL
+    shares = dielectric(cosines, eta)
     return (
-        _share_problem(is_mirrored, dielectric(cosines, eta), samples.nothing)
-        or (_odds_problem(is_mirrored, dielectric(cosines, eta), cosines, samples.nothing) if alpha else ""),
+        _share_problem(is_mirrored, shares, samples.nothing)
+        or (_odds_problem(is_mirrored, shares, cosines, samples.nothing) if alpha else ""),
         "the weight is wrong" if _weights_differ(samples.weights, right, steep) else "",
         rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
         "" if samples.are_specular else "a sample of glass is not specular",
