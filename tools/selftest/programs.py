@@ -5,7 +5,8 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -221,60 +222,72 @@ _COMPILERS = ("x86_64-w64-mingw32-g++-posix", "x86_64-w64-mingw32-g++")
 _WINE_SECONDS = 600
 _SCENE = "scenes/lessons/three-spheres.nff"
 _BUILD = "build for Windows (MinGW-w64)"
-_RUN = "test-framework and the tests of all steps, Windows (Wine)"
-_PICTURES = "the same pictures on Windows (Wine)"
+_RUN = "test-framework, the tests of all steps and the same pictures, Windows (Wine)"
 
 
 def windows_checks(project: Project, native: BuildTree, inputs: Inputs) -> list[Check]:
     """`native` holds the programs of this system, to compare with."""
     if not ((any(map(shutil.which, _COMPILERS)) and shutil.which("wine")) or install(MINGW)):
         missing = Report("skipped", f"install: {' '.join(MINGW)}")
-        return [Check(name, lambda: missing) for name in (_BUILD, _RUN, _PICTURES)]
+        return [Check(name, lambda: missing) for name in (_BUILD, _RUN)]
     tree = BuildTree(project, "mingw", project.build / "mingw", project.steps)
     tests = ["test-framework", "test-reference"]  # which holds the tests of all steps
     belongs = inputs(__name__)
     return [
-        Check(_BUILD, lambda: _built_for_windows(tree, [*tests, "raytrace-reference"]), belongs),
-        Check(_RUN, lambda: _all_pass_in_wine(tree, tests), belongs, beside=True),
-        Check(_PICTURES, lambda: _same_pictures_in_wine(native, tree), belongs, beside=True),
+        Check(_BUILD, lambda: build(tree, [*tests, "raytrace-reference"]), belongs),
+        Check(_RUN, lambda: _right_in_wine(native, tree, tests), belongs, beside=True),
     ]
 
 
-def _built_for_windows(tree: BuildTree, targets: list[str]) -> Report:
-    built = build(tree, targets)
-    if built.verdict == "passed":
-        _in_wine(tree, ["wineboot", "--init"])  # its Windows is made here, and not by two programs at a time
-    return built
+def _right_in_wine(native: BuildTree, tree: BuildTree, tests: list[str]) -> Report:
+    with _wine_running(tree):
+        failed = [*_failed_in_wine(tree, tests), *_different_in_wine(native, tree)]
+    return Report("failed", "\n".join(failed)) if failed else Report("passed")
 
 
 def _exe(tree: BuildTree, name: str) -> Path:
     return tree.bin / f"{name}.exe"
 
 
-def _in_wine(tree: BuildTree, words: list[str | Path]) -> Outcome:
-    """With a Windows of its own in the build folder, without a window and with nothing that asks."""
+@contextmanager
+def _wine_running(tree: BuildTree) -> Iterator[None]:
+    """With a Windows of its own in the build folder, whose server stays until the end of it. By itself the server ends
+    with its last program, and cuts off the next one if that comes at this moment."""
+    (tree.folder / "wine").mkdir(parents=True, exist_ok=True)
+    _with_wine(tree, ["wineserver", "--persistent"])
+    try:
+        _with_wine(tree, ["wine", "wineboot", "--init"])
+        yield
+    finally:
+        _with_wine(tree, ["wineserver", "--kill"])
+
+
+def _with_wine(tree: BuildTree, words: list[str | Path]) -> Outcome:
+    """Without a window and with nothing that asks."""
     settings = {"WINEPREFIX": str(tree.folder / "wine"), "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml="}
     options = [f"{name}={value}" for name, value in settings.items()]
     display = ["-u", "DISPLAY"] if "DISPLAY" in os.environ else []
-    return run(["env", *display, *options, "wine", *words], seconds=_WINE_SECONDS, cwd=tree.project.root)
+    return run(["env", *display, *options, *words], seconds=_WINE_SECONDS, cwd=tree.project.root)
 
 
-def _all_pass_in_wine(tree: BuildTree, tests: list[str]) -> Report:
-    failed = []
+def _program_in_wine(tree: BuildTree, name: str, options: list[str | Path]) -> Outcome:
+    return _with_wine(tree, ["wine", tree.bin / f"{name}.exe", *options])
+
+
+def _failed_in_wine(tree: BuildTree, tests: list[str]) -> Iterator[str]:
     for name in tests:
-        outcome = _in_wine(tree, [_exe(tree, name)])
+        outcome = _program_in_wine(tree, name, [])
         if outcome.code != 0 or outcome.timed_out or "All tests passed" not in outcome.stdout:
-            failed.append(f"{name}:\n{(outcome.stdout + outcome.stderr)[-2000:]}")
-    return Report("failed", "\n".join(failed)) if failed else Report("passed")
+            yield f"{name}:\n{(outcome.stdout + outcome.stderr)[-2000:]}"
 
 
-def _same_pictures_in_wine(native: BuildTree, tree: BuildTree) -> Report:
-    """After each step, by the gate of grades without one wrong pixel: powers come from another library of maths on
-    Windows, so a byte may be off by one."""
+def _different_in_wine(native: BuildTree, tree: BuildTree) -> Iterator[str]:
+    """Pictures after each step, by the gate of grades without one wrong pixel: powers come from another library of
+    maths on Windows, so a byte may be off by one."""
     built = build(native, ["raytrace-reference"])
     if built.verdict != "passed":
-        return built
-    different = []
+        yield built.detail
+        return
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         for step in kit_steps(tree.project):
             options: list[str | Path] = [tree.project.root / _SCENE, "--size", _SIZE, "--step", str(step.index)]
@@ -282,11 +295,11 @@ def _same_pictures_in_wine(native: BuildTree, tree: BuildTree) -> Report:
             # a name that no code page has, to see that paths are not spoiled on the way
             here, there = Path(folder) / "here.ppm", Path(folder) / f"dört-光-{step.number}.ppm"
             run([native.program("raytrace-reference"), *options, here], seconds=_WINE_SECONDS)
-            said = _in_wine(tree, [_exe(tree, "raytrace-reference"), *options, there])
+            said = _program_in_wine(tree, "raytrace-reference", [*options, there])
             try:
                 verdict = compare(read_ppm(there), read_ppm(here), 0.0)
             except PictureError as error:
-                different.append(f"step {step.number}: {error} {said.stderr[-500:]}")
+                yield f"step {step.number}: {error} {said.stderr[-500:]}"
             else:
-                different += [] if verdict.passed else [f"step {step.number}: {verdict.message}"]
-    return Report("failed", "\n".join(different)) if different else Report("passed")
+                if not verdict.passed:
+                    yield f"step {step.number}: {verdict.message}"
