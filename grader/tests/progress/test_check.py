@@ -1,6 +1,6 @@
 """The command `check`: one report of all steps, whatever was checked last."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -14,7 +14,7 @@ from raysteps.progress import check
 from raysteps.report.attempts import read_attempts
 from raysteps.report.student import REPORT
 from raysteps.results.model import Results
-from raysteps.results.store import read_results, write_results
+from raysteps.results.store import read_results
 
 _CODE = "int answer() { return 42; }\n"
 
@@ -32,10 +32,8 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
     project = small_project(tmp_path)
     kit = _Kit(fingerprint="one", steps=read_steps(project), has_reference=False, project=project)
 
-    def look_through(_kit: Any, _submission: Any, chosen: Sequence[Step], out: Path, *_: Any) -> Results:
-        results = Results.of("steps", [checked(step, "passed", 6.5).steps[0] for step in chosen], kit=kit.fingerprint)
-        write_results(results, out)
-        return results
+    def look_through(_kit: Any, _submission: Any, chosen: Sequence[Step], *_: Any) -> Results:
+        return Results.of("steps", [checked(step, "passed", 6.5).steps[0] for step in chosen], kit=kit.fingerprint)
 
     monkeypatch.setattr(check, "build_kit", lambda *_: kit)
     monkeypatch.setattr(check, "_look_through", look_through)
@@ -86,6 +84,29 @@ def test_what_was_found_before_outlives_a_check_that_fails(course: Project, monk
     with pytest.raises(KeyboardInterrupt):
         _check(course, 2)
     assert [result.id[:2] for result in read_results(course.build / "check" / "results.json").steps] == ["01"]
+
+
+def test_what_is_found_is_there_before_its_mistakes_have_names(
+    course: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = course.build / "check"
+    told: list[bool] = []
+
+    def find_and_learn(
+        kit: Any, _submission: Any, chosen: Sequence[Step], _out: Path, _say: Any, tell: Callable[[Results], None]
+    ) -> Results:
+        tell(Results.of("steps", [checked(step, "partial", 3).steps[0] for step in chosen], kit=kit.fingerprint))
+        raise KeyboardInterrupt
+
+    def tell(found: check.CheckResult) -> None:
+        told.append(found.page == out / REPORT and REPORT in {path.name for path in out.iterdir()})
+
+    monkeypatch.setattr(check, "_look_through", find_and_learn)
+    with pytest.raises(KeyboardInterrupt):
+        check.check_steps(course, read_steps(course)[:1], lambda _: None, tell)
+    assert told == [True]
+    assert [result.points for result in read_results(out / "results.json").steps] == [3]
+    assert [attempt.points for attempt in read_attempts(out)] == [3]
 
 
 def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: Project) -> None:

@@ -75,6 +75,25 @@ def test_samples_are_drawn_beside_their_density(open_page: OpenPage, steps: list
     assert 'class="spread"' not in student_page(document, tmp_path, steps)
 
 
+def test_a_picture_that_waits_for_unwritten_code_is_not_called_wrong(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    document = _mixed(steps, tmp_path)
+    result = next(step for step in document.steps if step.status == "partial" and len(step.images) > 1)
+    result.images[0].waits_for = result.images[0].message = "closest_hit"
+    page = open_page(write_student_page(document, tmp_path, steps))
+    pictures = page.locator(f"#step-{result.id[:2]} details.picture")
+    names = [picture.locator("h5").inner_text() for picture in pictures.all()]
+    assert names == [image.name for image in (*result.images[1:], result.images[0])]
+    last = pictures.last
+    assert "waits" in last.locator("> summary").inner_text()
+    assert "wrong" not in last.locator("> summary").inner_text()
+    assert last.get_attribute("open") is None
+    assert "wrong" in pictures.first.locator("> summary").inner_text()
+    listed = page.get_by_role("navigation", name="Your pictures").get_by_role("link", name=result.images[0].name)
+    assert "wrong" not in listed.first.text_content().split()  # type: ignore[union-attr]
+
+
 def test_a_script_in_the_report_is_stopped_by_its_policy(watched: Watched, steps: list[Step], tmp_path: Path) -> None:
     path = write_student_page(_mixed(steps, tmp_path), tmp_path, steps)
     text = path.read_text(encoding="utf-8").replace("<main", "<script>document.title = 'taken'</script><main")

@@ -7,12 +7,10 @@ from rich.console import Console
 from raysteps.course.manifest import STEPS_HELP, chosen_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
-from raysteps.progress.check import check_steps
+from raysteps.progress.check import CheckResult, check_steps
 from raysteps.progress.standing import ALL_DONE
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command, watch_command
-from raysteps.results.model import Results
-from raysteps.toolchain.kit_artifacts import BuiltKit
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,21 +22,22 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     """Checks the steps in the repository and explains what is wrong."""
     chosen = chosen_steps(project, arguments.steps)
     out = project.build / "check"
-    told = []
+    told = False
 
-    def tell(kit: BuiltKit, results: Results) -> None:
-        print_details(console, results, kit.steps, out, replay_command, inspects=True)
+    def tell(found: CheckResult) -> None:
+        nonlocal told
+        told = True
+        print_details(console, found.results, found.kit.steps, out, replay_command, inspects=True)
         console.print()
-        print_table(console, results, visible_only=not project.has_reference)
-        told.append(results)
+        print_table(console, found.results, visible_only=not project.has_reference)
+        print_files(console, out / "results.json", found.page)
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)
-    if told and project.has_reference:
+    if told:
         print_diagnoses(console, checked.results)
-    elif not told:
-        tell(checked.kit, checked.results)
-    print_files(console, out / "results.json", checked.page)
+    else:
+        tell(checked)
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:
         console.print(f"Next: {watch_command(checked.following.id)}")

@@ -123,15 +123,16 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
     room = _room(project)
     out = (options.out or room / "grade" / submission_name(options.submission)).resolve()
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
-    with console.status("starting") as status, one_at_a_time(room / "locks" / lock):
+    with console.status("starting") as status:
         say = progress(console, status)
-        submission = load_submission(options.submission, read_steps(project))
-        kit = build_kit(project, say)
-        clear(out, kit.steps, kit.steps)
-        jobs = options.jobs or os.cpu_count() or 1
-        results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs, course=course)
-        told = withhold(results, options.settings.feedback)  # the terminal may be the student's, too
-        page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
+        with one_at_a_time(room / "locks" / lock, lambda: say(f"waiting for another command, which grades into {out}")):
+            submission = load_submission(options.submission, read_steps(project))
+            kit = build_kit(project, say)
+            clear(out, kit.steps, kit.steps)
+            jobs = options.jobs or os.cpu_count() or 1
+            results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs, course=course)
+            told = withhold(results, options.settings.feedback)  # the terminal may be the student's, too
+            page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine
 
     if options.details:
         print_details(console, told, kit.steps, out, again)

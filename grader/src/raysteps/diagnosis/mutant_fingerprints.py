@@ -163,10 +163,10 @@ def mutant_fingerprints(
     path = _place(kit, step)
     known = _found(path)
     if known is None:
-        with one_at_a_time(path.with_suffix(".lock")):
+        what = f"learning the known mistakes of {step.number} (once)"
+        with one_at_a_time(path.with_suffix(".lock"), lambda: say(f"{what}: another command does it")):
             known = _found(path)
             if known is None:
-                what = f"learning the known mistakes of {step.number} (once)"
                 say(what)
                 far = paced(lambda text: say(f"{what}: {text}"))
                 known = _learn(kit, step, plan, mutants, sandbox or LimitsOnly(), far)

@@ -317,6 +317,13 @@ def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
 
 
+def _keep(results: Results, settings: Settings, out: Path) -> None:
+    try:
+        write_results(withhold(results, settings.feedback), out)
+    except OSError as error:
+        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
+
+
 def grade_submission(
     kit: BuiltKit,
     submission: Submission,
@@ -333,8 +340,8 @@ def grade_submission(
     """Writes out/results.json, without what `settings.feedback` withholds, and out/pictures/; returns everything. What
     goes wrong in a step costs that step only; where it was the grader that failed in one, GraderFault says so when all
     is written. So many `jobs` are done at a time; that changes a grade only where a step is near its time limit.
-    `course` is the name that results.json tells. `name_crash` may add to messages where a test crashed. `tell` gets the
-    results before known mistakes have to be learned: nobody waits for names."""
+    `course` is the name that results.json tells. `name_crash` may add to messages where a test crashed. Where known
+    mistakes have to be learned, the results are written and `tell` gets them before: nobody waits for names."""
     start = time.monotonic()
     together = submission_seconds(settings.limits)
     counted, apart = AccountingSandbox(sandbox, together), AccountingSandbox(sandbox, _APART * together)
@@ -357,14 +364,12 @@ def grade_submission(
             name_crash(steps)
             timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds + apart.cpu_seconds, 2))
             results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
+            results.course = course
             if any(grader.has_to_learn for grader in graders):
+                _keep(results, settings, out)
                 tell(results)
             list(pool.map(HiddenStepGrader.explain, graders))
-    results.course = course
-    try:
-        write_results(withhold(results, settings.feedback), out)
-    except OSError as error:
-        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
+    _keep(results, settings, out)
     faults = [grader.fault for grader in graders if grader.fault]
     if faults:
         raise GraderFault(

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault, RaystepsError, reason
+from raysteps.common.errors import RaystepsError
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, earlier
 from raysteps.grading.images import judge
@@ -20,7 +20,6 @@ from raysteps.grading.unit_tests import FIND_THE_LINE, has_crashed, has_hung, se
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
 from raysteps.results.model import Integration, Results, StepResult, Timing
-from raysteps.results.store import write_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, KeptLibraries, Program, StudentBuild
@@ -205,8 +204,8 @@ def self_check(
     say: ProgressCallback,
     tell: Callable[[Results], None] | None = None,
 ) -> Results:
-    """Writes out/results.json and out/pictures/. Points are those of the visible part. Where somebody waits to be told
-    of them, larger pictures are drawn after that."""
+    """Writes out/pictures/. Points are those of the visible part. Where somebody waits to be told of them, larger
+    pictures are drawn after that."""
     start = time.monotonic()
     counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
@@ -217,16 +216,7 @@ def self_check(
         name_crash(kit, submission, sandbox, say, asked)
         timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
         results = Results.of(submission.name, asked, kit.fingerprint, counted.isolation, timing)
-        _write(results, out)
         if tell is not None:
             tell(results)
             _draw_large(graders, say)
-            _write(results, out)
     return results
-
-
-def _write(results: Results, out: Path) -> None:
-    try:
-        write_results(results, out)
-    except OSError as error:
-        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error

@@ -50,6 +50,7 @@ class Answer(Generic[T]):
     credit: Callable[[Inputs, T, T], float] = lambda _inputs, _expected, _actual: 0.0
     constant: Callable[[T], str] | None = None  # `words` without what was counted
     near: Callable[[T], Vector] | None = None  # where an answer that is nearly right is worth something
+    is_drawn: bool = False  # by chance: the reference's answer is one of many that are right
 
     def parse(self, line: str) -> T:
         tokens = TokenReader(line)
@@ -72,7 +73,7 @@ class Answer(Generic[T]):
     def measured(self, name: str, inputs: Inputs, line: str) -> "Measured[T]":
         """What all others are compared with."""
         value = self.reference(name, inputs, line)
-        shown = self.words(value)
+        shown = f"for instance {self.words(value)}" if self.is_drawn else self.words(value)
         constant = shown if self.constant is None else self.constant(value)
         right = self.near(value) if self.near is not None else None
         return Measured(line, value, Verdict("", shown, shown, 1.0, constant, right, right))

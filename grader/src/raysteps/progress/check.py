@@ -7,7 +7,7 @@ from datetime import datetime
 from functools import partial
 from pathlib import Path
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import one_at_a_time
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -36,16 +36,18 @@ class CheckResult:
 
 _NEWER: tuple[Kind, ...] = ("changed", "missing", "unreadable")  # than what was checked
 
-Tell = Callable[[BuiltKit, Results], None]  # of results in which no mistake has its name, before larger pictures
-
 
 def _look_through(
-    kit: BuiltKit, submission: Submission, chosen: list[Step], out: Path, say: ProgressCallback, tell: Tell | None
+    kit: BuiltKit,
+    submission: Submission,
+    chosen: list[Step],
+    out: Path,
+    say: ProgressCallback,
+    tell: Callable[[Results], None] | None,
 ) -> Results:
     jobs = os.cpu_count() or 1
-    first = None if tell is None else partial(tell, kit)
     if not kit.has_reference:
-        return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say, first)
+        return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say, tell)
     from raysteps.grading.pipeline import (
         grade_submission,  # a students' kit has neither the judge nor what belongs to it
     )
@@ -54,7 +56,7 @@ def _look_through(
     settings = Settings(only=tuple(step.id for step in chosen))
     crash = partial(name_crash, kit, submission, LimitsOnly(), say)
     return grade_submission(
-        kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=first or (lambda _: None), name_crash=crash
+        kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=tell or (lambda _: None), name_crash=crash
     )
 
 
@@ -74,12 +76,14 @@ def _found_before(out: Path, kit: BuiltKit, chosen: Sequence[Step]) -> Results |
     return _with_steps(before, kept) if kept and before.kit == kit.fingerprint else None
 
 
-def check_steps(project: Project, chosen: list[Step], say: ProgressCallback, tell: Tell | None = None) -> CheckResult:
+def check_steps(
+    project: Project, chosen: list[Step], say: ProgressCallback, tell: Callable[[CheckResult], None] | None = None
+) -> CheckResult:
     """The chosen steps of those in the repository. In build/check they take the place of what was there of them, and
-    the other steps stay. Your own code needs no sandbox. `tell` gets the results at once, where mistakes must be
-    learned before they can be named, or larger pictures are still to be drawn."""
+    the other steps stay. Your own code needs no sandbox. `tell` gets what is found, and what is kept of it, at once,
+    where mistakes must be learned before they can be named, or larger pictures are still to be drawn."""
     out = project.build / "check"
-    with one_at_a_time(project.build / "check.lock"):
+    with one_at_a_time(project.build / "check.lock", lambda: say("waiting for another command, which checks here")):
         kit = build_kit(project, say).in_one_process()
         before = _found_before(out, kit, chosen)
         kept = [] if before is None else before.steps
@@ -87,16 +91,25 @@ def check_steps(project: Project, chosen: list[Step], say: ProgressCallback, tel
         if before is not None:
             write_results(before, out)  # whatever becomes of the rest
         submission = load_submission(project.steps, kit.steps)
-        results = _look_through(kit, submission, chosen, out, say, tell)
-        if kept:
-            write_results(_with_steps(results, [*kept, *results.steps]), out)
-        remember(project, results, submission.sources)
-        whole = _with_steps(results, [*kept, *results.steps]) if kept else results
-        note_attempt(out, whole, [step.id for step in chosen], datetime.now().astimezone())
-        found = standings(project)
-        following = next_of(found)
-        page = try_student_page(out, kit.steps, say, own_progress(project, out, found))
-        return CheckResult(kit, results, page, following)
+        noted = False
+
+        def keep(results: Results) -> CheckResult:
+            nonlocal noted
+            whole = _with_steps(results, [*kept, *results.steps]) if kept else results
+            try:
+                write_results(whole, out)
+            except OSError as error:
+                raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
+            if not noted:
+                remember(project, results, submission.sources)
+                note_attempt(out, whole, [step.id for step in chosen], datetime.now().astimezone())
+                noted = True
+            found = standings(project)
+            page = try_student_page(out, kit.steps, say, own_progress(project, out, found))
+            return CheckResult(kit, results, page, next_of(found))
+
+        first = None if tell is None else lambda results: tell(keep(results))
+        return keep(_look_through(kit, submission, chosen, out, say, first))
 
 
 def own_progress(project: Project, folder: Path, found: Sequence[Standing]) -> OwnProgress:

@@ -159,7 +159,7 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Histogram:
+class HistogramDrawing:
     """A drawing, and the same in words."""
 
     width: int
@@ -169,7 +169,7 @@ class Histogram:
     words: str
 
 
-def histogram(bars: Sequence[Bar], width: int, height: int, noun: str = "submission") -> Histogram:
+def histogram(bars: Sequence[Bar], width: int, height: int, noun: str = "submission") -> HistogramDrawing:
     """The highest column reaches the top."""
     floor = height - _BELOW
     most = max((bar.count for bar in bars), default=0) or 1
@@ -190,7 +190,7 @@ def histogram(bars: Sequence[Bar], width: int, height: int, noun: str = "submiss
             )
         )
     told = "; ".join(f"{bar.words}: {count(bar.count, noun)}" for bar in bars if bar.count)
-    return Histogram(width, height, floor, columns, told or "nothing to show")
+    return HistogramDrawing(width, height, floor, columns, told or "nothing to show")
 
 
 @dataclass(frozen=True)

@@ -361,6 +361,7 @@ def _image(
         "name": clean(image.name),
         "scene": clean(image.scene),
         "passed": image.passed,
+        "waits": bool(image.waits_for),
         "message": once(clean(image.message)) if image.outcome in ("crashed", "timeout") else clean(image.message),
         "facts": facts,
         "wrong_share": wrong if wrong is not None and wrong > GROSS else None,  # else the page sees each pixel itself
@@ -441,6 +442,7 @@ class OwnPicture:
     title: str
     name: str
     passed: bool
+    waits: bool
     message: str
     is_large: bool
 
@@ -448,14 +450,15 @@ class OwnPicture:
 def _own_pictures(
     results: Results, views: Mapping[str, Mapping[str, Any]], following: StepResult | None
 ) -> list[OwnPicture]:
-    """Those of the next thing to do come first, then what else is wrong; what is right goes back from the last step."""
+    """Those of the next thing to do come first, then what else is wrong, then what waits; what is right goes back from
+    the last step."""
     found = [
         (step, image)
         for step in reversed(results.steps)
         for image in views[step.id]["images"]
         if image["shown"].pictures.get("mine") is not None
     ]
-    found.sort(key=lambda pair: (pair[1]["passed"], pair[0] is not following))
+    found.sort(key=lambda pair: (pair[1]["passed"], pair[1]["waits"], pair[0] is not following))
     return [
         OwnPicture(
             image["at"],
@@ -463,6 +466,7 @@ def _own_pictures(
             views[step.id]["title"],
             image["name"],
             image["passed"],
+            image["waits"],
             image["message"],
             image["shown"].large is not None,
         )

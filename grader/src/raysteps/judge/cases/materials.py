@@ -229,6 +229,7 @@ _SAMPLE_VISIBLE_NORMAL = Function(
             if len(actual) == whole_of(inputs, "times")
             else "no proper answer came"
         ),
+        is_drawn=True,
     ),
     (
         Group("any view", lambda d: _visible(d, d.above(_UP, 0.2, 0.95))),
@@ -394,6 +395,7 @@ _SCATTER_METAL = Function(
         words_of_samples,
         lambda inputs, _expected, actual: first(*_metal_problems(inputs, actual)),
         lambda inputs, _expected, actual: 0.5 * share_right(*_metal_problems(inputs, actual)),
+        is_drawn=True,
     ),
     (
         Group("nearly smooth, from above", lambda d: _rough(d, 0.8, 0.98, (0.03, 0.06))),
@@ -525,6 +527,7 @@ _SCATTER_GLASS = Function(
         lambda glass: words_of_samples(glass.samples),
         lambda inputs, _expected, actual: first(*_glass_problems(inputs, actual)),
         lambda inputs, _expected, actual: 0.5 * share_right(*_glass_problems(inputs, actual)),
+        is_drawn=True,
     ),
     (
         Group("smooth", lambda d: _glass(d, 0.1, 0.98, Real(0.0))),

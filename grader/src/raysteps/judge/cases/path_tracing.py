@@ -105,7 +105,7 @@ def _near_an_axis(draw: RandomSource) -> Vector:
 
 _COSINE_DIRECTION = Function(
     "cosine_direction",
-    Answer(read_directions, words_of_directions, _directions_problem),
+    Answer(read_directions, words_of_directions, _directions_problem, is_drawn=True),
     (
         Group("any normal", lambda d: _directions(d, d.direction())),
         Group("along an axis", lambda d: _directions(d, d.axis()), exact=True),
@@ -221,6 +221,7 @@ _SCATTER_DIFFUSE = Function(
         words_of_samples,
         lambda inputs, _expected, actual: first(*_sample_problems(inputs, actual)),
         lambda inputs, _expected, actual: 0.5 * share_right(*_sample_problems(inputs, actual)),
+        is_drawn=True,
     ),
     (
         Group("any colour", lambda d: _scatter(d, _colored(d), d.direction(), 512)),

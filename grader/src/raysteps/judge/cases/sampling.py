@@ -142,7 +142,7 @@ def _draws(draw: RandomSource, side: int, points: int) -> Inputs:
 
 _STRATIFIED = Function(
     "stratified_samples",
-    Answer(_read_draws, _words_of_draws, _draws_problem),
+    Answer(_read_draws, _words_of_draws, _draws_problem, is_drawn=True),
     (
         Group("a few squares", lambda d: _draws(d, d.whole(2, 4), 2048)),
         Group("one square", lambda d: _draws(d, 1, 2048)),

@@ -228,7 +228,7 @@ def _disk_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
 
 _UNIT_DISK = Function(
     "unit_disk",
-    Answer(_reader(2), _words_of_draws, _disk_problem),
+    Answer(_reader(2), _words_of_draws, _disk_problem, is_drawn=True),
     (
         Group("many points", lambda d: _draws(d, _MANY)),
         Group("very many points", lambda d: _draws(d, _VERY_MANY)),
@@ -264,7 +264,7 @@ def _cap(draw: RandomSource, height: float, size: int) -> Inputs:
 
 _CAP_DIRECTION = Function(
     "cap_direction",
-    Answer(_reader(3), _words_of_draws, _cap_problem),
+    Answer(_reader(3), _words_of_draws, _cap_problem, is_drawn=True),
     (
         Group("any height", lambda d: _cap(d, d.real(0.1, 2.0), _MANY)),
         Group("low caps", lambda d: _cap(d, d.logarithmic(1e-3, 0.1), _MANY)),
@@ -375,7 +375,7 @@ def _sample_answer(problems: _Problems) -> Answer[_Draws]:
         position, *others = problems(inputs, actual)
         return 0.0 if position else share_right(position, *others)
 
-    return Answer(_reader(7), _words_of_draws, problem, credit)
+    return Answer(_reader(7), _words_of_draws, problem, credit, is_drawn=True)
 
 
 def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
@@ -624,7 +624,7 @@ def _lens(draw: RandomSource, low: float, high: float, size: int, *, radius: flo
 
 _LENS_RAY = Function(
     "lens_ray",
-    Answer(_reader(6), _words_of_draws, _lens_problem, _lens_credit),
+    Answer(_reader(6), _words_of_draws, _lens_problem, _lens_credit, is_drawn=True),
     (
         Group("a few rays", lambda d: _lens(d, 0.6, 0.98, _FEW)),
         Group("many rays", lambda d: _lens(d, 0.6, 0.98, _MANY)),
