@@ -130,7 +130,7 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
 }
 ")
 
-# All that kit.json names.
+# All that kit.json names: `kit` for any step, and `kit-NN` for what only the grades of that step and of later ones need.
 add_custom_target(kit)
 add_dependencies(kit raysteps-core raysteps-io raysteps-render raysteps-testing raytrace-app)
 foreach(part worker-app raysteps-absent ${RAYSTEPS_REMOTE_TARGETS})
@@ -143,8 +143,14 @@ if(TARGET raysteps-wide)
 endif()
 foreach(step IN LISTS RAYSTEPS_STEPS)
     raysteps_split_step(${step} number name)
-    add_dependencies(kit step-${number}-${RAYSTEPS_MODEL}-raw test-${number}-objects)
+    add_dependencies(kit step-${number}-${RAYSTEPS_MODEL}-raw)
     if(RAYSTEPS_SEAL)
         add_dependencies(kit step-${number}-${RAYSTEPS_MODEL})
     endif()
+    add_custom_target(kit-${number})
+    foreach(part test-${number}-objects stand-in-${number} service-${number})
+        if(TARGET ${part})
+            add_dependencies(kit-${number} ${part})
+        endif()
+    endforeach()
 endforeach()

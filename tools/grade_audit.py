@@ -384,7 +384,7 @@ def check_truth(
 ) -> int:
     """Prints the table and what is wrong; 1 when something is. All that is handed in is the kit's own, so nothing has
     to be kept from it; `in_sandbox` rounds are graded as submissions are, too."""
-    strict = build_kit(project, say).of_all_parts()
+    strict = build_kit(project, say, of_all_parts=True)
     kit = strict.in_one_process()
     chosen = [step.id for step in choose(kit.steps, list(only))]
     sandbox = sandbox_of_the_kit(_answers(project), f"{machine_mark()} {kit.description.compiler_version}")

@@ -177,7 +177,7 @@ def index_page(every: Sequence[tuple[Step, Sequence[Exhibit]]]) -> str:
 
 def _contents(project: Project, say: ProgressCallback) -> tuple[dict[Path, str], dict[Path, Pixels]]:
     """Texts and pictures by their paths."""
-    kit = build_kit(project, say).of_all_parts()
+    kit = build_kit(project, say, of_all_parts=True)
     folder = project.root / "docs" / "mistakes"
     every = [(step, exhibits(kit, step, say)) for step in kit.steps]
     texts = {folder / "README.md": index_page(every)}

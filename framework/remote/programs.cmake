@@ -19,6 +19,7 @@ foreach(number 02 06)
     add_library(later-${number} OBJECT remote/box/later_${number}.cpp)
     list(APPEND remote_targets later-${number})
 endforeach()
+set(RAYSTEPS_REMOTE_TARGETS ${remote_targets} PARENT_SCOPE)
 foreach(step IN LISTS RAYSTEPS_STEPS)
     raysteps_split_step(${step} number name)
     if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/remote/services/${number}_${name}.cpp")
@@ -35,4 +36,3 @@ raysteps_precompile(framework ${remote_targets})
 set_source_files_properties(
     remote/fiber.cpp PROPERTIES COMPILE_OPTIONS "-U_FORTIFY_SOURCE" SKIP_PRECOMPILE_HEADERS ON
 )
-set(RAYSTEPS_REMOTE_TARGETS ${remote_targets} PARENT_SCOPE)

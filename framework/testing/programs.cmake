@@ -6,6 +6,13 @@ function(raysteps_add_test name)
     raysteps_link_steps(${name} ${arg_MINE})
 endfunction()
 
+# Tests are compiled more often than they run, and what they test is compiled as always.
+function(raysteps_compile_quickly target)
+    if(NOT MSVC)
+        target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+    endif()
+endfunction()
+
 set(up_to "")
 set(step_tests "")
 foreach(step IN LISTS RAYSTEPS_STEPS)
@@ -15,6 +22,7 @@ foreach(step IN LISTS RAYSTEPS_STEPS)
     add_library(test-${number}-objects OBJECT ${tests})
     target_link_libraries(test-${number}-objects PRIVATE raysteps-testing raysteps-strict)
     raysteps_precompile(testing test-${number}-objects)
+    raysteps_compile_quickly(test-${number}-objects)
     list(APPEND step_tests $<TARGET_OBJECTS:test-${number}-objects>)
     if(RAYSTEPS_MODEL STREQUAL "reference")
         raysteps_add_test(test-reference-${number} SOURCES $<TARGET_OBJECTS:test-${number}-objects>)
@@ -54,6 +62,7 @@ raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp app
                   apps/inspect_options.cpp apps/view_options.cpp $<TARGET_OBJECTS:raysteps-inspect-recorded>)
 target_link_libraries(test-framework PRIVATE raysteps-view raysteps-inspect raysteps-render raysteps-io raysteps-core)
 raysteps_precompile(testing test-framework)
+raysteps_compile_quickly(test-framework)
 raysteps_link_wide(test-framework)
 
 # The readers against broken files: replayed with any compiler, and searched for new ones with libFuzzer.

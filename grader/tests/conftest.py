@@ -1,6 +1,7 @@
 """What the tests share: the repository, its steps, and submissions made from the solutions."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -41,9 +42,15 @@ def project() -> Project:
 
 
 @pytest.fixture(scope="session")
-def kit(project: Project) -> BuiltKit:
-    """Built once for all tests."""
-    return build_kit(project)
+def whole_kit(project: Project) -> BuiltKit:
+    """Built once for all tests, with the steps of all parts."""
+    return build_kit(project, of_all_parts=True)
+
+
+@pytest.fixture(scope="session")
+def kit(whole_kit: BuiltKit, steps: list[Step]) -> BuiltKit:
+    """Of part one."""
+    return replace(whole_kit, steps=steps)
 
 
 @pytest.fixture(scope="session")

@@ -310,7 +310,7 @@ def calibrate(
     project: Project, only: Sequence[str], console: Console, say: ProgressCallback, *, check: bool, grades: bool
 ) -> int:
     """Measures the limits of all pictures and writes them; or grades every correct solution (`grades`)."""
-    kit = build_kit(project, say).of_all_parts()
+    kit = build_kit(project, say, of_all_parts=True)
     settings, left_out = all_settings(kit)
     for text in left_out:
         say(text)

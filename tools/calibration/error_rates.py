@@ -248,7 +248,7 @@ def errors(project: Project, options: ErrorOptions, console: Console, say: Progr
         )
     start = time.monotonic()
     all_rates: list[StepRates] = []
-    for all_rates in measure(build_kit(project, say), steps, plain_sandbox(), options, say):
+    for all_rates in measure(build_kit(project, say, of_all_parts=True), steps, plain_sandbox(), options, say):
         if options.docs:  # each time: who stops it keeps what is known
             _write(project, all_rates, options.seed)
     _print(all_rates, time.monotonic() - start, console)

@@ -155,7 +155,7 @@ def _nobodys(project: Project) -> list[str]:
 
 def out_of_date(project: Project, say: ProgressCallback, names: Sequence[str] = ()) -> list[str]:
     """Paths that are missing, old, or made by no figure."""
-    kit = build_kit(project, say).of_all_parts()
+    kit = build_kit(project, say, of_all_parts=True)
     old = [figure.path for figure in _chosen(names) if _renewed(project, kit, figure, say) is not None]
     return old + ([] if names else _nobodys(project))
 
@@ -181,7 +181,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             console.print(f"{count(len(_chosen(arguments.names)), 'figure')} up to date", highlight=False)
         return 1 if old else 0
     chosen = _chosen(arguments.names)
-    kit = build_kit(project, say).of_all_parts()
+    kit = build_kit(project, say, of_all_parts=True)
     for figure in chosen:
         drawn = _renewed(project, kit, figure, say)
         if drawn is not None:

@@ -82,11 +82,12 @@ def test_estimates_are_read_where_they_are_asked_for(tmp_path: Path) -> None:
     assert render(_Says(b""), program, scene, (), Limits()).estimates is None
 
 
-def test_a_noisy_picture_is_judged_by_its_light(kit: BuiltKit, tmp_path: Path) -> None:
+def test_a_noisy_picture_is_judged_by_its_light(whole_kit: BuiltKit, tmp_path: Path) -> None:
     """The reference's own, drawn from other seeds, and what becomes of it when light is lost."""
     args = ("--step", "11", "--size", "40x30", "--samples", "16", "--sampler", "stratified", "--filter", "box")
     gate = Gate(args, max_wrong=0.0, max_noise=2.0, more_samples=4)
-    step = next(step for step in kit.of_all_parts().steps if step.index == 11)
+    kit = whole_kit
+    step = next(step for step in kit.steps if step.index == 11)
     scene = kit.project.root / step.images[0].scene
 
     def drawn(seed: int) -> Rendered:
@@ -109,12 +110,12 @@ def test_a_noisy_picture_is_judged_by_its_light(kit: BuiltKit, tmp_path: Path) -
     assert shown_reference(kit, scene, gate).shape == (30, 40, 3)
 
 
-def test_estimates_of_which_only_half_was_kept_are_drawn_again(kit: BuiltKit, tmp_path: Path) -> None:
-    (tmp_path / "bin").symlink_to(kit.folder / "bin")
+def test_estimates_of_which_only_half_was_kept_are_drawn_again(whole_kit: BuiltKit, tmp_path: Path) -> None:
+    (tmp_path / "bin").symlink_to(whole_kit.folder / "bin")
     (tmp_path / "pictures").mkdir()
-    kit = replace(kit, folder=tmp_path)
+    kit = replace(whole_kit, folder=tmp_path)
     gate = Gate(("--step", "11", "--size", "12x9"), max_wrong=0.0, max_noise=2.0, more_samples=4)
-    scene = kit.project.root / next(step for step in kit.of_all_parts().steps if step.index == 11).images[0].scene
+    scene = kit.project.root / next(step for step in kit.steps if step.index == 11).images[0].scene
     parts = reference_parts(kit, scene, gate)
     (kept,) = tmp_path.rglob("*.estimates")
     whole = kept.read_bytes()
@@ -124,4 +125,4 @@ def test_estimates_of_which_only_half_was_kept_are_drawn_again(kit: BuiltKit, tm
 
 
 def _part(kit: BuiltKit, step: Step, scene: Path, gate: Gate, made: Rendered) -> float:
-    return part_of_its_pixels(kit.of_all_parts(), step, scene, gate, made)
+    return part_of_its_pixels(kit, step, scene, gate, made)

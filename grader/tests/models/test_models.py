@@ -208,14 +208,14 @@ def _drawn(kit: BuiltKit, scene: Path, step: int) -> np.ndarray[tuple[int, ...],
     return read_ppm(out).astype(np.float64)
 
 
-def test_the_scene_of_part_two_shows_the_whole_model(kit: BuiltKit, obj: Path) -> None:
+def test_the_scene_of_part_two_shows_the_whole_model(whole_kit: BuiltKit, obj: Path) -> None:
     (obj.parent / "two.mtl").write_text(_MTL.replace("Ke 3 2 1\n", ""), encoding="utf-8")
     parts, _ = read_model(obj)
     cloth = [part for part in parts if part.material.texture is not None]
     path = obj.with_suffix(".pbrt")
     write_pbrt(cloth, path, textures=True)
     assert (obj.parent / "two-1.png").is_file()
-    picture = _drawn(kit.of_all_parts(), path, 11)
+    picture = _drawn(whole_kit, path, 11)
     red, _, blue = np.moveaxis(picture, 2, 0)
     reddish, bluish = red > blue + 60, blue > red + 60
     assert reddish.sum() > 200

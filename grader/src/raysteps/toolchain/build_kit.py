@@ -92,15 +92,19 @@ _NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
 _FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "precompiled", "rest", "steps")
 
 
+def up_to_last(project: Project, graded: Sequence[Step]) -> list[Step]:
+    """Steps of which more than the reference is needed to grade these: what is asked in a box may be any before it."""
+    return [step for step in read_all_steps(project) if step.index <= graded[-1].index]
+
+
 class Assembly:
     """Makes bin/, include/, steps/ and facts.json."""
 
-    def __init__(
-        self, project: Project, steps: list[Step], graded: list[Step], folder: Path, description: Description
-    ) -> None:
+    def __init__(self, project: Project, graded: list[Step], folder: Path, description: Description) -> None:
         self._project = project
-        self._steps = steps
+        self._steps = read_all_steps(project)
         self._graded = graded  # those that may be handed in; the reference stands for the others
+        self._up_to_last = up_to_last(project, graded)
         self._folder = folder
         self._description = description
         self._objects: dict[str, Path] = {}
@@ -120,7 +124,7 @@ class Assembly:
         if self._description.compiler_version.startswith("GNU"):
             self._precompile(say)
         if self._boxes is not None:
-            self._boxes.copy_parts()
+            self._boxes.copy_parts([step.number for step in self._up_to_last])
         if self._description.seal is not None:
             core = self._core if self._boxes is None else self._boxes.core
             defined = symbols_of(self._description.seal.nm, core).defined
@@ -149,7 +153,7 @@ class Assembly:
                 )
 
         with ThreadPoolExecutor(min(_COMPILERS, os.cpu_count() or 1)) as pool:
-            list(pool.map(one, self._steps))
+            list(pool.map(one, self._graded))
 
     def _add_programs(self, say: ProgressCallback) -> Tests:
         """Around each step by itself, and around all up to one."""
@@ -197,12 +201,12 @@ class Assembly:
     def _add_own_programs(self, say: ProgressCallback) -> Tests:
         """In a students' kit: all steps up to one are the student's, and those after it are stubs."""
         raytrace = [self._copy(path) for path in self._description.raytrace]
-        for at, step in enumerate(self._steps, start=1):
+        for at, step in enumerate(self._up_to_last, start=1):
             say(f"linking the programs of step {step.number}")
-            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._steps[:at])
+            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._up_to_last[:at])
             objects = [self._copy(path) for path in self._description.tests[step.number]]
             self._write_rest(f"test-{step.number}", objects)
-            self._add_program(f"test-cumulative-{step.number}", objects, self._steps[:at])
+            self._add_program(f"test-cumulative-{step.number}", objects, self._up_to_last[:at])
         return read_given_tests(self._project)
 
     def _write_known(self) -> None:
@@ -277,21 +281,29 @@ _KEPT = 3
 _IN_USE_SECONDS = 1800  # a class touches its kit for each submission
 
 
-def build_kit(project: Project, say: ProgressCallback = lambda text: None) -> BuiltKit:
-    """The kit of the repository as it is now; built when there is none yet."""
-    steps = read_steps(project)
+def build_kit(project: Project, say: ProgressCallback = lambda text: None, *, of_all_parts: bool = False) -> BuiltKit:
+    """The kit of the repository as it is now; built when there is none yet. `of_all_parts`: for its makers, with every
+    step that can be graded, whatever parts course.toml chooses."""
+    steps, every = read_steps(project), kit_steps(project)
+    chosen = every if of_all_parts else steps
     for _ in range(3):
         mark = fingerprint(project)
-        folder = project.build / "kit" / mark
-        is_built = (folder / "kit.json").is_file()
+        whole = folder = project.build / "kit" / mark
+        if chosen != every and not _is_built(whole):  # one of fewer parts is sooner there
+            folder = whole.with_name(f"{mark}-{'-'.join(str(part) for part in sorted({step.part for step in steps}))}")
+        is_built = _is_built(folder)
         if not is_built:
-            _build(project, folder, say)
+            _build(project, chosen, folder, say)
         if is_built or fingerprint(project) == mark:
             with suppress(OSError):  # of a kit that may only be read, as in an image
                 os.utime(folder)
             _forget_old(folder.parent)
-            return _load(project, steps, folder)
+            return _load(project, chosen, folder)
     raise GraderFault("the kit's sources keep changing while it is built")
+
+
+def _is_built(folder: Path) -> bool:
+    return (folder / "kit.json").is_file()
 
 
 def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
@@ -299,27 +311,28 @@ def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
     table = json.loads((folder / "facts.json").read_text(encoding="utf-8"))
     worth = course_manifests(project)  # built alike, and graded otherwise
     own = f"-{hashlib.sha256(repr(sorted(worth.items())).encode()).hexdigest()[:8]}" if worth else ""
-    mark = f"{folder.name}{own} {description.compiler_version}"
+    mark = f"{folder.name.partition('-')[0]}{own} {description.compiler_version}"
     return BuiltKit(project, folder, mark, steps, description, table["tests"], table["interpreter"], table["slowness"])
 
 
 def _forget_old(kits: Path) -> None:
     """Keeps the kits that were used last, and those that may be in use."""
-    built = sorted((kit for kit in kits.iterdir() if (kit / "kit.json").is_file()), key=lambda kit: kit.stat().st_mtime)
+    built = sorted((kit for kit in kits.iterdir() if _is_built(kit)), key=lambda kit: kit.stat().st_mtime)
     for kit in built[:-_KEPT]:
         if time.time() - kit.stat().st_mtime > _IN_USE_SECONDS:
             shutil.rmtree(kit, ignore_errors=True)
 
 
-def _build(project: Project, folder: Path, say: ProgressCallback) -> None:
+def _build(project: Project, graded: list[Step], folder: Path, say: ProgressCallback) -> None:
     what = f"building the framework{', the references' if project.has_reference else ''} and the tests"
     say(what)
     folder.parent.mkdir(parents=True, exist_ok=True)
     tree = release_tree(project)
     with tree.locked(say), tempfile.TemporaryDirectory(prefix=".new-", dir=folder.parent) as name:
-        if (folder / "kit.json").is_file():
+        if _is_built(folder):
             return  # somebody else was faster
-        outcome = tree.build(["kit"], lambda far: say(f"{what}: {far}"))
+        targets = ["kit", *(f"kit-{step.number}" for step in up_to_last(project, graded))]
+        outcome = tree.build(targets, lambda far: say(f"{what}: {far}"))
         if outcome.code != 0:
             raise GraderFault("the kit's own programs do not build:\n" + what_failed(outcome))
         for left in folder.parent.glob(".new-*"):  # by builds that were killed: this one has the lock
@@ -328,7 +341,7 @@ def _build(project: Project, folder: Path, say: ProgressCallback) -> None:
         new = Path(name) / "kit"
         new.mkdir()
         description = read_description(tree.folder / "kit.json")
-        Assembly(project, read_all_steps(project), kit_steps(project), new, description).run(say)
+        Assembly(project, graded, new, description).run(say)
         shutil.copyfile(tree.folder / "kit.json", new / "kit.json")
         shutil.rmtree(folder, ignore_errors=True)
         new.rename(folder)

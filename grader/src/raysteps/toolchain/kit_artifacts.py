@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from raysteps.common.platform import executable
-from raysteps.course.manifest import Step, earlier, kit_steps, up_to
+from raysteps.course.manifest import Step, earlier, up_to
 from raysteps.course.project import Project
 from raysteps.toolchain.limits import StepLimits, limits_of
 from raysteps.toolchain.link import Description, RemoteParts, library_name, link, without_names
@@ -77,11 +77,12 @@ class ProgramLinker:
     def _part(self, path: Path) -> Path:
         return self._folder / "remote" / path.parent.name / path.name
 
-    def copy_parts(self) -> None:
-        """Of the build folder, which changes while a kit is in use."""
+    def copy_parts(self, numbers: Collection[str]) -> None:
+        """Of the build folder, which changes while a kit is in use. `numbers`: of the steps that are asked."""
         parts = self._remote
-        groups = (parts.stand_ins.values(), parts.services.values(), parts.later.values())
-        for path in (*parts.wire, parts.home, parts.box, parts.core, *(path for group in groups for path in group)):
+        groups = (parts.stand_ins, parts.services)
+        asked = [path for group in groups for number, path in group.items() if number in numbers]
+        for path in (*parts.wire, parts.home, parts.box, parts.core, *parts.later.values(), *asked):
             self._part(path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, self._part(path))
 
@@ -266,10 +267,6 @@ class BuiltKit:
         """The kit's names that the step may ask for: core's, and the functions of steps up to it."""
         names = json.loads((self.folder / "steps" / f"{step.number}.allowed.json").read_text(encoding="utf-8"))
         return frozenset(names)
-
-    def of_all_parts(self) -> "BuiltKit":
-        """The kit for its makers: with every step that can be graded, whatever parts course.toml chooses."""
-        return replace(self, steps=kit_steps(self.project))
 
     def in_one_process(self) -> "BuiltKit":
         """The kit for one's own steps and for those of its catalogues: nothing has to be kept from them, and a program
