@@ -71,7 +71,7 @@ def test_a_stale_or_a_strange_figure_is_found(
     tmp_path: Path, project: Project, kit: BuiltKit, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.copytree(project.root / FOLDER, tmp_path / FOLDER)
-    monkeypatch.setattr(command, "build_kit", lambda *_: kit)
+    monkeypatch.setattr(command, "build_kit", lambda *_, **__: kit)
     monkeypatch.setattr(command, "figures", lambda: [one for one in figures() if one.name in ("02-sphere", "01-after")])
     copy = Project(tmp_path)
     chosen = argparse.Namespace(check=True, names=["02-sphere", "01-after"])
@@ -108,7 +108,7 @@ def test_what_cannot_be_drawn_here_is_left_as_it_is(
 
     (tmp_path / "window.png").write_bytes(b"as it was")
     said: list[str] = []
-    monkeypatch.setattr(command, "build_kit", lambda *_: kit)
+    monkeypatch.setattr(command, "build_kit", lambda *_, **__: kit)
     monkeypatch.setattr(command, "figures", lambda: [Figure("window", "window.png", draw)])
     assert command.out_of_date(Project(tmp_path), said.append) == []
     assert said == ["window.png is left as it is: Xvfb is missing: install xvfb"]
