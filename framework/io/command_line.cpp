@@ -139,9 +139,12 @@ std::string CommandLine::nearest(const std::string& word) const {
     std::string nearest;
     std::size_t least = 3;  // from here on it is another word
     const auto look_at = [&](const std::string& name) {
-        if (const std::size_t distance = edit_distance(word, name); name.size() > least && distance < least) {
+        const std::size_t distance = edit_distance(word, name);
+        if (name.size() > least && distance < least) {
             nearest = name;
             least = distance;
+        } else if (distance == least && !nearest.empty()) {
+            nearest += " or " + name;
         }
     };
     for (const auto& [name, setter] : options_) {

@@ -74,7 +74,7 @@ private:
         bool ends = false;
     };
 
-    /// The option that may have been meant; nothing where none is like it.
+    /// The option that may have been meant, or several as near; nothing where none is like it.
     [[nodiscard]] std::string nearest(const std::string& word) const;
 
     std::size_t max_words_;

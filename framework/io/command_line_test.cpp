@@ -66,6 +66,14 @@ TEST_CASE("A wrong command line is answered with what was expected and what was 
     CHECK(complaint_about({"1", "2", "3"}) == "arguments: expected two words, found '3'");
 }
 
+TEST_CASE("All options that may have been meant are told", "[io]") {
+    std::string text;
+    CommandLine line(0, "nothing");
+    line.option("--sampler", text).option("--samples", text).option("--seed", text);
+    CHECK_THROWS_WITH(line.parse({"--sample", "4"}),
+                      "--sample: there is no such option; did you mean --sampler or --samples?");
+}
+
 TEST_CASE("Numbers in a row have one separator between two", "[io]") {
     CHECK(numbers_in("320x240", 'x', 2) == std::vector<int>{320, 240});
     for (const char* text : {"", "320", "320x", "x240", "320x240x1", "320,240", "320x 240", "99999999999x1"}) {

@@ -231,6 +231,7 @@ TEST_CASE("solid_angle_pdf: distance squared over the cosine", "[12-soft-light][
 
 TEST_CASE("solid_angle_pdf: nothing is seen from behind, nor along the lamp", "[12-soft-light][solid_angle_pdf]") {
     const glm::vec3 down(0.0F, -1.0F, 0.0F);
+    INFO("the lamp shines down, on what is below it alone");
     REQUIRE(solid_angle_pdf(1.0F, {0.0F, 1.0F, 0.0F}, {0.0F, 3.0F, 0.0F}, down) > 0.0F);
     CHECK(solid_angle_pdf(1.0F, {0.0F, 5.0F, 0.0F}, {0.0F, 3.0F, 0.0F}, down) == 0.0F);
     CHECK(solid_angle_pdf(1.0F, {4.0F, 3.0F, 0.0F}, {0.0F, 3.0F, 0.0F}, down) == 0.0F);

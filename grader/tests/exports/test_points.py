@@ -68,3 +68,5 @@ def test_apportion() -> None:
     assert apportion(100, [1, 1, 1]) == [34, 33, 33]
     assert apportion(0, [1, 2]) == [0, 0]
     assert apportion(7, [0, 1, 0]) == [0, 7, 0]
+    shares = [0.45, 0.15, 0.35, 0.05]
+    assert apportion(150, shares) == apportion(150, [15 * share for share in shares])  # a tie, whatever the rounding

@@ -94,6 +94,24 @@ def test_a_picture_that_waits_for_unwritten_code_is_not_called_wrong(
     assert "wrong" not in listed.first.text_content().split()  # type: ignore[union-attr]
 
 
+def test_pixels_of_a_noisy_picture_are_said_to_differ_by_chance(
+    open_page: OpenPage, steps: list[Step], tmp_path: Path
+) -> None:
+    document = _mixed(steps, tmp_path)
+    result = next(step for step in document.steps if step.status == "partial")
+    image = result.images[0]
+    image.noisy = True
+    page = open_page(write_student_page(document, tmp_path, steps))
+    pictures = page.locator(f"#step-{result.id[:2]} details.picture")
+    picture = pictures.filter(has=page.locator("h5", has_text=image.name))
+    picture.scroll_into_view_if_needed()
+    said = picture.locator(".compare-count:has-text('differ by chance')")
+    said.wait_for()
+    assert "fewer pixels" not in said.inner_text()  # what is counted in parts is no number of pixels
+    image.passed, image.message, image.outcome = True, "", "ok"
+    assert "no more off than chance explains" in student_page(document, tmp_path, steps)
+
+
 def test_a_script_in_the_report_is_stopped_by_its_policy(watched: Watched, steps: list[Step], tmp_path: Path) -> None:
     path = write_student_page(_mixed(steps, tmp_path), tmp_path, steps)
     text = path.read_text(encoding="utf-8").replace("<main", "<script>document.title = 'taken'</script><main")

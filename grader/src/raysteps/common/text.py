@@ -89,7 +89,7 @@ def signed(change: float, told: Callable[[float], str] = number) -> str:
 def apportion(total: int, weights: Sequence[float]) -> list[int]:
     """Whole numbers that sum to the total, as near to the weights as can be: the largest remainders are rounded up."""
     whole = sum(weights)
-    exact = [total * weight / whole if whole else 0.0 for weight in weights]
+    exact = [round(total * weight / whole, 9) if whole else 0.0 for weight in weights]  # ties are ties
     parts = [int(value) for value in exact]
     order = sorted(range(len(parts)), key=lambda index: parts[index] - exact[index])
     for index in order[: total - sum(parts)]:

@@ -163,6 +163,7 @@ _ABSOLUTE = 2e-4
 _RELATIVE = 2e-3
 _MAX_WORDS = 2000
 _WORDS_ONLY = 0.25  # of the weight of an answer with the same numbers
+_SAME_WORDS_OF_CHANCE = 0.9  # of answers by chance: whoever turns a frame otherwise has other numbers for one mistake
 _TURNED = 0.8  # of the weight of the same number
 _MOSTLY = 0.6
 
@@ -241,5 +242,7 @@ def answer_similarity(
         return 1.0
     if not same_problem:
         return 0.0
+    if function.answer.is_drawn:
+        return _SAME_WORDS_OF_CHANCE
     agreement = _agreement(right, mistake.line, mine.line)
     return agreement if agreement >= _MOSTLY else _WORDS_ONLY

@@ -350,7 +350,9 @@ def _image(
 ) -> dict[str, object]:
     wrong, share = image.wrong_share, image.share_tested
     facts = []
-    if wrong is not None and not image.noisy:
+    if image.noisy and image.passed:
+        facts.append("the light of its parts is no more off than chance explains")
+    elif wrong is not None and not image.noisy:
         facts.append(f"{wrong:.2%} of the pixels are wrong; at most {image.max_wrong:.2%} may be")
     if share is not None and image.max_share is not None:
         facts.append(f"a ray tests {share:.3g} of the objects; at most {image.max_share:.3g} of them may be tested")
@@ -364,7 +366,8 @@ def _image(
         "waits": bool(image.waits_for),
         "message": once(clean(image.message)) if image.outcome in ("crashed", "timeout") else clean(image.message),
         "facts": facts,
-        "wrong_share": wrong if wrong is not None and wrong > GROSS else None,  # else the page sees each pixel itself
+        "noisy": image.noisy,  # then what is wrong is counted in parts, and else the page sees each pixel itself
+        "wrong_share": wrong if wrong is not None and wrong > GROSS and not image.noisy else None,
         "shown": shown,
         "files": [clean(name) for name in (image.mine, image.reference) if name],
         "inspect": inspect_command(image.name, step, has_reference=has_reference),

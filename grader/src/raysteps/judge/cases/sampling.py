@@ -254,6 +254,14 @@ _BOX, _TENT_KIND, _MITCHELL_KIND = range(3)  # as in core/pixel_sample.hpp
 _REACH = (0.5, 1.0, 2.0)
 
 
+@dataclass(frozen=True)
+class _Filter(Whole):
+    """One of the three, by its number."""
+
+    def words(self) -> str:
+        return ("box", "tent", "Mitchell")[self.value]
+
+
 def _sample(draw: RandomSource, reach: float, light: Vector) -> PixelSample:
     return PixelSample((draw.real(-reach, reach), draw.real(-reach, reach)), light)
 
@@ -263,7 +271,7 @@ def _samples(draw: RandomSource, filters: tuple[int, ...], size: int, *, brighte
     kind = filters[draw.whole(0, len(filters) - 1)]
     near = _sample(draw, 0.2, draw.color(0.1, brightest))
     others = [_sample(draw, 0.98 * _REACH[kind], draw.color(0.1, brightest)) for _ in range(size - 1)]
-    return {"filter": Whole(kind), "samples": PixelSamples((near, *others))}
+    return {"filter": _Filter(kind), "samples": PixelSamples((near, *others))}
 
 
 _EVERY = (_BOX, _TENT_KIND, _MITCHELL_KIND)
@@ -281,14 +289,14 @@ def _of_no_weight(draw: RandomSource) -> Inputs:
     """No sample at all, or only such as lie beyond the filter's reach."""
     kind = _EVERY[draw.whole(0, 1)]
     out = [PixelSample((draw.sign() * draw.real(1.1, 3), draw.real(-1, 1)), draw.color()) for _ in range(3)]
-    return {"filter": Whole(kind), "samples": PixelSamples(tuple(out[: draw.whole(0, 3)]))}
+    return {"filter": _Filter(kind), "samples": PixelSamples(tuple(out[: draw.whole(0, 3)]))}
 
 
 def _negative_light(draw: RandomSource) -> Inputs:
     """A bright sample where the filter is below 0."""
     near = PixelSample((draw.real(-0.1, 0.1), draw.real(-0.1, 0.1)), draw.color(0.1, 0.3))
     far = PixelSample((draw.sign() * draw.real(1.3, 1.7), draw.real(-0.1, 0.1)), draw.color(20, 30))
-    return {"filter": Whole(_MITCHELL_KIND), "samples": PixelSamples((near, far))}
+    return {"filter": _Filter(_MITCHELL_KIND), "samples": PixelSamples((near, far))}
 
 
 _COLOR = Answer(

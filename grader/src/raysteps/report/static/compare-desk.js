@@ -30,6 +30,7 @@ class CompareDesk {
     this.seen = false;
     /** @type {number | null} the share of wrong pixels that a grader counted in a picture that it shows coarser */
     this.counted = null;
+    this.noisy = false;
     this.#shared = shared;
     const act = this.#actions();
     this.ui = makeControls(label, names, act);
@@ -103,7 +104,7 @@ class CompareDesk {
   /** Takes the pictures when they were read. */
   take(pair) {
     this.pair = pair;
-    tellPair(this.ui, pair, this.names, this.counted);
+    tellPair(this.ui, pair, this.names, this);
     this.marks.offer(pair);
     const impossible = this.ui.views.some(({ dataset, disabled }) => disabled && dataset.view === this.view);
     this.choose(!pair.comparable ? "side" : impossible ? "slider" : this.view);

@@ -58,7 +58,7 @@ function sizeWords(raster) {
 }
 
 /** What is there, what cannot be shown, and how much differs. */
-function tellPair(ui, pair, names, counted) {
+function tellPair(ui, pair, names, known) {
   for (const button of ui.views) {
     const { id, needsBoth } = compareViews.find((view) => view.id === button.dataset.view);
     button.disabled = (needsBoth && !pair.comparable) || (id === "flip" && !pair.flip);
@@ -72,11 +72,11 @@ function tellPair(ui, pair, names, counted) {
   tellHistogram(ui.histogram, pair.gaps);
   ui.count.classList.toggle("same", pair.comparable && !pair.wrong);
   ui.count.classList.toggle("trouble", !pair.comparable);
-  ui.count.textContent = pair.comparable ? countWords(pair, counted) : troubleWords(pair, names);
+  ui.count.textContent = pair.comparable ? countWords(pair, known) : troubleWords(pair, names);
 }
 
 /** A grader shows a picture that is grossly wrong with fewer pixels and colours than it had: then its count holds. */
-function countWords({ wrong: seen, width, height }, counted) {
+function countWords({ wrong: seen, width, height }, { counted, noisy }) {
   const all = width * height;
   const percent = 100 * (counted ?? seen / all);
   const wrong = Math.round((percent / 100) * all);
@@ -84,8 +84,11 @@ function countWords({ wrong: seen, width, height }, counted) {
     wrong === seen
       ? ""
       : " A picture that is mostly wrong is kept with fewer pixels and colours; your own check shows all of it.";
+  const chance = noisy
+    ? " Pixels of two right pictures differ by chance: what counts is the light of whole parts."
+    : "";
   return wrong
-    ? `${wrong} of ${all} pixels differ (${percent < 0.01 ? "under 0.01" : percent.toFixed(2)} %) by more than ${compareTolerance} of 255.${coarse}`
+    ? `${wrong} of ${all} pixels differ (${percent < 0.01 ? "under 0.01" : percent.toFixed(2)} %) by more than ${compareTolerance} of 255.${coarse}${chance}`
     : `No difference: no pixel is more than ${compareTolerance} of 255 away.`;
 }
 

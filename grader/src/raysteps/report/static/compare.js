@@ -90,6 +90,7 @@ class ComparePictures extends HTMLElement {
       this.getAttribute("inspect"),
     );
     this.#desk.counted = this.hasAttribute("wrong-share") ? Number(this.getAttribute("wrong-share")) : null;
+    this.#desk.noisy = this.hasAttribute("noisy");
     this.#desk.marks.onPixel = ({ x, y }) => this.#tell(x, y);
     this.#desk.marks.onChoice = (detail) => this.dispatchEvent(new CustomEvent("choose", { bubbles: true, detail }));
     const sized = this.#image("reference") ?? this.#image("mine");
