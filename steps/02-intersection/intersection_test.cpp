@@ -128,8 +128,8 @@ TEST_CASE("Triangle: the hit must lie in front of the origin", "[02-intersection
     SECTION("an origin on the triangle: distance 0 does not count") {
         CHECK_FALSE(triangle.intersect({{0.25F, 0.25F, 0.0F}, -down}).has_value());
     }
-    SECTION("0.001 before it: near, and a hit all the same") {
-        CHECK(triangle.intersect({{0.2F, 0.2F, 0.001F}, down}).has_value());
+    SECTION("0.0005 before it: near, and a hit all the same") {
+        CHECK(triangle.intersect({{0.2F, 0.2F, 0.0005F}, down}).has_value());
     }
     SECTION("a ray beside the plane never meets it") {
         CHECK_FALSE(triangle.intersect({{-1.0F, 0.25F, 0.5F}, along}).has_value());
@@ -235,10 +235,10 @@ TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::interse
     SECTION("the line passes the centre at 1.01: a miss") {
         CHECK_FALSE(sphere.intersect({{1.01F, 0.0F, 5.0F}, down}).has_value());
     }
-    SECTION("0.001 before it: near, and a hit all the same") {
-        const std::optional<HitRecord> hit = sphere.intersect({{0.0F, 0.0F, 1.001F}, down});
+    SECTION("0.0005 before it: near, and a hit all the same") {
+        const std::optional<HitRecord> hit = sphere.intersect({{0.0F, 0.0F, 1.0005F}, down});
         REQUIRE(hit.has_value());
-        CHECK(hit->distance == about(0.001));
+        CHECK(hit->distance == about(0.0005));
     }
     SECTION("the whole sphere lies behind the origin: a miss") {
         CHECK_FALSE(sphere.intersect({{0.0F, 0.0F, 5.0F}, -down}).has_value());

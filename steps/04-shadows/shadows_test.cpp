@@ -159,6 +159,11 @@ TEST_CASE("is_lit: what stands behind the light does not block it", "[04-shadows
         const FakeScene scene = scene_of({&before});
         CHECK_FALSE(is_lit(scene, hit, light));
     }
+    SECTION("hit at 0, ball from 4.86 to 4.94, light at 5: in shadow") {
+        const Sphere before = ball({0.0F, 0.0F, 4.9F}, 0.04F);
+        const FakeScene scene = scene_of({&before});
+        CHECK_FALSE(is_lit(scene, hit, light));
+    }
 }
 
 TEST_CASE("is_lit: what lies on the other side of the surface does not block", "[04-shadows][is_lit]") {

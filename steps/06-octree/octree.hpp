@@ -8,8 +8,8 @@
 //         A direction with zeros in it is fine, and -0.0 is one of them.
 //     bool Sphere::overlaps(const Box& box) const;
 //     bool Triangle::overlaps(const Box& box) const;
-//         true wherever surface and box have a point in common. A true too many is allowed, a false is not:
-//         comparing bounds() with the box is a correct answer, only not a fast one.
+//         true wherever surface and box have a point in common, false where bounds() does not touch the box. Between
+//         these a true too many is allowed: comparing bounds() with the box is a correct answer, only not a fast one.
 #include <array>
 
 #include "core/node.hpp"

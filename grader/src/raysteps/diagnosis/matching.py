@@ -275,7 +275,9 @@ def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
         named.append(NamedMistake(best.mutant, tuple(explained), tuple(alike), best.is_seen()))
         open_.names -= explained.keys()
         open_.told |= best.spoilt
-    return named + _pairs(matches, open_.names)[: _MAX - len(named)]
+    known = {one.mutant.id for one in named}
+    pairs = [one for one in _pairs(matches, open_.names) if one.mutant.id not in known]
+    return named + pairs[: _MAX - len(named)]
 
 
 def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[NamedMistake]:

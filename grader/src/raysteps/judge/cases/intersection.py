@@ -1,7 +1,7 @@
 """Cases of step 02: the closest of several hits; triangles and spheres have modules of their own."""
 
 from raysteps.common.vectors import add, cross, times, unit
-from raysteps.judge.cases.triangles import NEAREST, SIZES, TRIANGLE_INTERSECT
+from raysteps.judge.cases.triangles import SIZES, TRIANGLE_INTERSECT, close_by
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import FOUND, HIT
 from raysteps.judge.protocol import Inputs, Ray, rounded
@@ -84,7 +84,7 @@ def _exactly_tangent(draw: RandomSource) -> Inputs:
 def _close_origin(draw: RandomSource) -> Inputs:
     """Just outside the sphere or just inside, on the way in or out."""
     s = draw.sphere(reach=2.0, low=1.0)
-    outward, off = draw.direction(), draw.logarithmic(NEAREST, 0.1) * draw.sign()
+    outward, off = draw.direction(), close_by(draw)
     direction = draw.above(times(draw.sign(), outward), 0.4)
     return _case(s, Ray(rounded(add(s.center, outward, s.radius + off)), direction), draw)
 

@@ -111,11 +111,12 @@ def behind_light(draw: RandomSource) -> Inputs:
 
 
 def before_light(draw: RandomSource) -> Inputs:
-    """Ends close before the light, or begins close behind it."""
+    """Ends close before the light, or begins close behind it. Half of them are small, so that they begin close before
+    the light, too."""
     hit = random_hit(draw)
     light = light_above(draw, hit, 4, 12)
     way = unit(minus(light.position, hit.position))
-    radius = draw.real(0.3, 1)
+    radius = draw.real(0.3, 1) if draw.chance(0.5) else draw.real(0.03, 0.12)
     gap = (radius + draw.real(0.03, 0.1)) * draw.sign()
     return scene([Sphere(rounded(add(light.position, way, gap)), radius)], hit, light)
 

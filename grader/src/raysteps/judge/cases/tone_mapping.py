@@ -58,7 +58,8 @@ _NO_COLOR = (-1.0, -0.5, -100.0, -math.inf, math.nan, -0.0)
 
 def _channel(draw: RandomSource) -> float:
     """Well away from the border between two bytes."""
-    return f32((draw.whole(1, 254) + draw.real(-0.4, 0.4)) / 255)
+    byte = draw.whole(1, 254) if draw.chance(0.75) else (1, 2, 253, 254)[draw.whole(0, 3)]
+    return f32((byte + draw.real(-0.4, 0.4)) / 255)
 
 
 def _byte(value: float) -> Inputs:

@@ -11,6 +11,7 @@ from raysteps.judge.surfaces import Triangle
 
 SIZES = (0.002, 1000.0)  # of a triangle's longest edge and of a sphere's radius
 NEAREST = 3e-4  # a hit nearer than 1e-4 may be left out
+_NEAR = 9e-4  # a threshold of 1e-3, which many programs have here, leaves out what is nearer
 _STEEP = 0.2  # least cosine between ray and normal: seen edge-on, rounding may decide
 
 
@@ -163,11 +164,15 @@ def _grazing(draw: RandomSource) -> Inputs:
     return case(t, Ray(rounded(add(inside(draw, t), direction, -draw.real(1, 5))), rounded(direction)), draw)
 
 
+def close_by(draw: RandomSource) -> float:
+    """How far before a surface, or behind it: half of them so near that a threshold leaves them out."""
+    return draw.logarithmic(NEAREST, _NEAR if draw.chance(0.5) else 0.1) * draw.sign()
+
+
 def _close_origin(draw: RandomSource) -> Inputs:
     """Just before the triangle, or just behind it."""
     t = draw.triangle(2.0)
-    distance = draw.logarithmic(NEAREST, 0.1) * draw.sign()
-    return case(t, towards(draw, t, inside(draw, t), draw.sign(), distance), draw)
+    return case(t, towards(draw, t, inside(draw, t), draw.sign(), close_by(draw)), draw)
 
 
 def _any_size(draw: RandomSource) -> Inputs:
