@@ -241,11 +241,13 @@ def measure(
 
 def errors(project: Project, options: ErrorOptions, console: Console, say: ProgressCallback) -> int:
     """Measures and prints; 1 when a right solution was called wrong."""
-    steps = [step for step in choose(kit_steps(project), options.only) if step.is_in_part_two]
-    if not steps or options.grades < 1:
-        raise UsageError(
-            "expected steps of part two, 10 to 15, whose grades are left to chance, and at least one grade"
-        )
+    if options.grades < 1:
+        raise UsageError(f"--grades {options.grades}: expected 1 or more")
+    chosen = choose(kit_steps(project), options.only)
+    steps = [step for step in chosen if step.is_in_part_two]
+    if len(steps) < len(chosen) and options.only:
+        exact = next(step for step in chosen if step not in steps)
+        raise UsageError(f"--only {exact.number}: nothing of its grade is left to chance; expected steps of part two")
     start = time.monotonic()
     all_rates: list[StepRates] = []
     for all_rates in measure(build_kit(project, say, of_all_parts=True), steps, plain_sandbox(), options, say):

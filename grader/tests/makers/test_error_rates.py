@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from raysteps.common.errors import UsageError
 from raysteps.course.manifest import choose, kit_steps
 from raysteps.course.mutants import reference_source
 from raysteps.course.project import Project
@@ -83,6 +84,20 @@ def test_the_cases_that_ask_for_a_mean_are_known(project: Project) -> None:
 def test_the_page_has_a_part_for_the_table(project: Project) -> None:
     page = (project.root / "docs" / "judge.md").read_text(encoding="utf-8")
     assert "\nnew\n" in replace_part(page, "errors", "new")
+
+
+@pytest.mark.portable
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (ErrorOptions(only=("3",)), "--only 03: nothing of its grade is left to chance; expected steps of part two"),
+        (ErrorOptions(only=("9-11",)), "--only 09: nothing of its grade is left to chance"),
+        (ErrorOptions(grades=0), "--grades 0: expected 1 or more"),
+    ],
+)
+def test_what_cannot_be_measured_is_refused_at_once(project: Project, options: ErrorOptions, said: str) -> None:
+    with pytest.raises(UsageError, match=re.escape(said)):
+        errors(project, options, Console(), lambda words: None)
 
 
 @pytest.mark.slow
