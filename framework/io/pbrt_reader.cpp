@@ -321,12 +321,25 @@ private:
             const bool linear = parameters.string("encoding") == "linear";
             const bool clamp = parameters.string("wrap") == "clamp";
             found.texture = std::make_shared<MeshTexture>(
-                MeshTexture{read_texture(path_to(scanner, token, parameters.string("filename")), linear),
+                MeshTexture{read_picture(scanner, token, parameters.string("filename"), linear),
                             clamp ? Wrap::clamp : Wrap::repeat});
         } else {
             scanner.fail(token, "a texture of the kind \"imagemap\" or \"checkerboard\"", raysteps::quoted(kind));
         }
         return found;
+    }
+
+    // A file, or, as in glTF, a picture that stands in the scene itself.
+    [[nodiscard]] Texture read_picture(const PbrtScanner& scanner, const Token& token, const std::string& file,
+                                       bool linear) const {
+        if (!file.starts_with("data:")) {
+            return read_texture(path_to(scanner, token, file), linear);
+        }
+        const std::optional<std::string> bytes = bytes_of_data_uri(file);
+        if (!bytes) {
+            scanner.fail(token, "a file, or `data:image/png;base64,` and a picture in base64", raysteps::quoted(file));
+        }
+        return read_texture(*bytes, raysteps::quoted(file), linear);
     }
 
     Material read_material(PbrtScanner& scanner, const Token& token, const std::string& kind) {

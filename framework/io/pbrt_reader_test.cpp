@@ -101,6 +101,26 @@ TEST_CASE("meshes: normals turn with the mesh, and v goes down in the kit", "[pb
     CHECK(only<MeshTriangle>(scene).texture()->image.width == 64);
 }
 
+TEST_CASE("a picture may stand in the scene itself", "[pbrt]") {
+    const std::string png =
+        "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR42mP4zwAE/wEHAAH/PX2MSQAAAABJRU5ErkJggg==";
+    const auto scene_of = [](const std::string& file) {
+        return k_view + R"(WorldBegin Texture "two" "spectrum" "imagemap" "string filename" ")" + file +
+               R"(" Material "diffuse" "texture reflectance" "two" )" + k_triangle;
+    };
+    const Scene scene = read(scene_of("data:image/png;base64," + png));
+    const Texture& texture = only<MeshTriangle>(scene).texture()->image;
+    REQUIRE((texture.width == 2 && texture.height == 1));
+    CHECK_THAT(texture.texel(0, 0), IsNear({1.0F, 0.0F, 0.0F}));
+    CHECK_THAT(texture.texel(1, 0), IsNear({0.0F, 0.0F, 1.0F}));
+    const std::string none =
+        "bad.pbrt:1:73: expected a file, or `data:image/png;base64,` and a picture in base64, found ";
+    CHECK(error_of(scene_of("data:image/png;base64,iVBOR!")) == none + "`data:image/png;base6...`");
+    CHECK(error_of(scene_of("data:image/png,iVBOR")) == none + "`data:image/png,iVBOR`");
+    CHECK(error_of(scene_of("data:image/png;base64," + png.substr(0, 64))) ==
+          "`data:image/png;base6...`: expected a whole picture, found one that is damaged");
+}
+
 TEST_CASE("meshes without normals get flat ones", "[pbrt]") {
     const Scene scene = read(k_view + "WorldBegin " + k_triangle);
     for (const MeshCorner& corner : only<MeshTriangle>(scene).face()) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -100,6 +101,32 @@ std::array<float, 256> light_of_bytes(bool linear) {
 }
 
 }  // namespace
+
+std::optional<std::string> bytes_of_data_uri(std::string_view uri) {
+    constexpr std::string_view k_mark = ";base64,";
+    constexpr std::string_view k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t mark = uri.find(k_mark);
+    if (mark == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const std::string_view text = uri.substr(mark + k_mark.size());
+    std::string bytes;
+    unsigned bits = 0;
+    unsigned known = 0;
+    for (const char digit : text.substr(0, text.find_last_not_of('=') + 1)) {
+        const std::size_t value = k_digits.find(digit);
+        if (value == std::string_view::npos) {
+            return std::nullopt;
+        }
+        bits = (bits << 6U | static_cast<unsigned>(value)) & 0xFFFFU;
+        known += 6;
+        if (known >= 8) {
+            known -= 8;
+            bytes += static_cast<char>(bits >> known & 0xFFU);
+        }
+    }
+    return bytes;
+}
 
 Texture read_texture(const std::filesystem::path& path, bool linear) {
     return read_texture(read_file(path), display_name(path), linear);

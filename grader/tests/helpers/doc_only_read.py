@@ -37,6 +37,7 @@ COMMANDS = {
     ),
     "./raysteps render MODEL.obj -o model.png": _MODEL,
     "./raysteps convert MODEL.obj -o model.pbrt": _MODEL,
+    "./raysteps convert MODEL.obj -o model.pbrt --textures inside": _MODEL,
     "./raysteps docs --live": "compiles the kit, which takes minutes; test_site_figures makes such a site",
     "./raysteps play": _PLAY,
     "./raysteps play --port 8000 --no-open": _PLAY,

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from estimate_files import bytes_of
 
+from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
 from raysteps.images.compare import read_ppm
@@ -17,6 +18,7 @@ from raysteps.images.render import (
     judge_picture,
     part_of_its_pixels,
     reference_parts,
+    reference_picture,
     render,
     shown_reference,
 )
@@ -126,3 +128,12 @@ def test_estimates_of_which_only_half_was_kept_are_drawn_again(whole_kit: BuiltK
 
 def _part(kit: BuiltKit, step: Step, scene: Path, gate: Gate, made: Rendered) -> float:
     return part_of_its_pixels(kit, step, scene, gate, made)
+
+
+def test_a_graded_scene_stands_alone(kit: BuiltKit, tmp_path: Path) -> None:
+    """A student's program gets nothing that lies beside it, and must not lose by that."""
+    scene = tmp_path / "scene.pbrt"
+    scene.write_text('WorldBegin\nInclude "more.pbrt"\n', encoding="utf-8")
+    (tmp_path / "more.pbrt").write_text('Shape "sphere"\n', encoding="utf-8")
+    with pytest.raises(GraderFault, match=r"scene\.pbrt, with no other file beside it: .*more\.pbrt: expected a file"):
+        reference_picture(kit, scene, ("--step", "11", "--size", "8x6"))

@@ -1,5 +1,7 @@
 """Twins of the visible pictures, and made-up scenes."""
 
+from dataclasses import replace
+
 import pytest
 
 from raysteps.common.errors import GraderFault
@@ -81,3 +83,12 @@ def test_a_scene_of_pbrts_form_moves_the_eye_and_nothing_else() -> None:
     assert words[0] == "LookAt"
     assert words[4:] == ["0", "1", "0", "0", "1", "0"]
     assert words[1:4] != ["0", "2", "9"]
+
+
+def test_a_picture_without_a_twin_is_named(project: Project, steps: list[Step]) -> None:
+    step = steps[0]
+    names = [image.name for image in step.images]
+    more = replace(step, images=(*step.images, replace(step.images[0], name="mine")))
+    said = f"must list a twin for each .*: {', '.join(names)}, mine; found {', '.join(names)}"
+    with pytest.raises(GraderFault, match=said):
+        read_plan(project, more)

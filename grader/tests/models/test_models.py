@@ -1,6 +1,7 @@
 """Models from elsewhere: what is read of them, the scene around them, and what is said of broken ones."""
 
 import random
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -197,7 +198,7 @@ def test_damaged_files_are_read_or_refused(obj: Path, ending: str) -> None:
         except UsageError:
             continue
         write_nff(parts, path.with_suffix(".nff"))
-        write_pbrt(parts, path.with_suffix(".pbrt"), textures=True)
+        write_pbrt(parts, path.with_suffix(".pbrt"), textures="beside")
 
 
 def _drawn(kit: BuiltKit, scene: Path, step: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
@@ -213,7 +214,7 @@ def test_the_scene_of_part_two_shows_the_whole_model(whole_kit: BuiltKit, obj: P
     parts, _ = read_model(obj)
     cloth = [part for part in parts if part.material.texture is not None]
     path = obj.with_suffix(".pbrt")
-    write_pbrt(cloth, path, textures=True)
+    write_pbrt(cloth, path, textures="beside")
     assert (obj.parent / "two-1.png").is_file()
     picture = _drawn(whole_kit, path, 11)
     red, _, blue = np.moveaxis(picture, 2, 0)
@@ -243,7 +244,7 @@ def test_a_scene_is_as_large_as_shadows_need_it(tmp_path: Path, size: float) -> 
     """Its acne threshold is 0.001 units."""
     path = tmp_path / "box.ply"
     path.write_bytes(trimesh.creation.box((size, size, size)).export(file_type="ply"))
-    write_pbrt(read_model(path)[0], tmp_path / "box.pbrt", textures=True)
+    write_pbrt(read_model(path)[0], tmp_path / "box.pbrt", textures="beside")
     text = (tmp_path / "box.pbrt").read_text(encoding="utf-8")
     corners = np.array(text.split('"point3 P" [')[1].split("]")[0].split(), dtype=float).reshape(-1, 3)
     assert 1 <= np.linalg.norm(np.ptp(corners, axis=0)) <= 10
@@ -252,15 +253,30 @@ def test_a_scene_is_as_large_as_shadows_need_it(tmp_path: Path, size: float) -> 
 
 
 def test_without_textures_a_scene_is_one_file(obj: Path) -> None:
-    write_pbrt(read_model(obj)[0], obj.with_suffix(".pbrt"), textures=False)
+    write_pbrt(read_model(obj)[0], obj.with_suffix(".pbrt"), textures="none")
     text = obj.with_suffix(".pbrt").read_text(encoding="utf-8")
     assert '"rgb reflectance" [0.5 0 0.5]' in text
     assert "filename" not in text
     assert not list(obj.parent.glob("*.png"))
 
 
+def test_with_textures_inside_a_scene_is_one_file_and_looks_the_same(kit: BuiltKit, obj: Path) -> None:
+    (obj.parent / "two.mtl").write_text(_MTL.replace("Ke 3 2 1\n", ""), encoding="utf-8")
+    parts = read_model(obj)[0]
+    parts += [replace(part, name="once more") for part in parts if part.material.texture is not None]
+    write_pbrt(parts, obj.with_name("beside.pbrt"), textures="beside")
+    (obj.parent / "alone").mkdir()
+    alone = obj.parent / "alone" / "inside.pbrt"
+    write_pbrt(parts, alone, textures="inside")
+    assert [path.name for path in alone.parent.iterdir()] == ["inside.pbrt"]
+    assert alone.read_text(encoding="utf-8").count("data:image/png;base64,") == 1, "one that two parts have stands once"
+    beside = _drawn(kit.of_all_parts(), obj.with_name("beside.pbrt"), 11)
+    assert (_drawn(kit.of_all_parts(), alone, 11) == beside).all()
+    assert beside.std() > 20
+
+
 def test_a_model_with_a_lamp_is_left_alone_with_it(obj: Path) -> None:
-    write_pbrt(read_model(obj)[0], obj.with_suffix(".pbrt"), textures=True)
+    write_pbrt(read_model(obj)[0], obj.with_suffix(".pbrt"), textures="beside")
     text = obj.with_suffix(".pbrt").read_text(encoding="utf-8")
     assert 'AreaLightSource "diffuse" "rgb L" [3 2 1]' in text
     assert "\nLightSource" not in text

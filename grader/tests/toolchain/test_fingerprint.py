@@ -19,6 +19,7 @@ FILES = {
     "solutions/01-camera-rays/camera_rays.cpp": "// answer",
     "solutions/01-camera-rays/cases.toml": "x = 1",
     "scenes/lessons/a.nff": "b 0 0 0",
+    "scenes/lessons/b.pbrt": "WorldBegin",
     "grader/src/raysteps/judge/worker.py": "pass",
     "grader/src/raysteps/results/model.py": "pass",
 }

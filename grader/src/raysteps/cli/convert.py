@@ -13,7 +13,7 @@ from raysteps.common.files import content_hash
 from raysteps.common.text import count
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, is_of_part_two
-from raysteps.models import ENDINGS
+from raysteps.models import ENDINGS, TexturePlace
 
 _MESHES = "11"  # the step from which on scenes have meshes and textures
 
@@ -31,13 +31,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--up", choices=["y", "z"], default="y", help="which way is up in the model (y)")
     parser.add_argument(
-        "--no-textures",
-        action="store_true",
-        help="their mean colours instead, so that the scene is one file, as scenes that are graded must be",
+        "--textures",
+        choices=["beside", "inside", "none"],
+        default="beside",
+        help="files beside the scene (beside), a part of its text, as one that is graded needs it (inside), or mean "
+        "colours only (none)",
     )
 
 
-def _write(model: Path, out: Path, *, z_up: bool, textures: bool) -> list[str]:
+def _write(model: Path, out: Path, *, z_up: bool, textures: TexturePlace) -> list[str]:
     from raysteps.models.mesh_file import read_model  # trimesh takes its time
     from raysteps.models.scene_around import write_nff, write_pbrt
 
@@ -56,7 +58,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     out: Path = arguments.out
     if out.suffix.lower() not in (".pbrt", ".nff") or out.is_dir():
         raise UsageError(f"{out}: expected the name of a scene to write, .pbrt or .nff")
-    for note in _write(arguments.model, out, z_up=arguments.up == "z", textures=not arguments.no_textures):
+    for note in _write(arguments.model, out, z_up=arguments.up == "z", textures=arguments.textures):
         console.print(escape(note), highlight=False)
     console.print(f"Scene: {escape(os.fspath(out))}", soft_wrap=True, highlight=False)
     return 0
@@ -70,6 +72,6 @@ def as_scene(project: Project, scene: str) -> str:
     ending = ".pbrt" if any(step.number == _MESHES for step in read_steps(project)) else ".nff"
     folder = project.build / "models" / f"{path.stem}-{content_hash(os.fspath(path.resolve()).encode())[:8]}"
     out = folder / f"{path.stem}{ending}"
-    for note in _write(path, out, z_up=False, textures=True)[:-1]:
+    for note in _write(path, out, z_up=False, textures="beside")[:-1]:
         print(f"raysteps: {note}", file=sys.stderr)
     return os.fspath(out)

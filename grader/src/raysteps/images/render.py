@@ -130,6 +130,7 @@ def stored_parts(picture: Path) -> Estimates:
 
 ESTIMATES = ".estimates"
 _REFERENCE_SECONDS = 600
+_SCENE = "scene.nff"  # whatever its form
 _MAX_STATS = 1 << 16  # bytes; raytrace writes some hundred
 _MAX_SHARE = 1e6  # of the scene that a ray is tested against; more than 1 where a surface stands in many boxes
 
@@ -165,7 +166,7 @@ def render(
     estimates: bool = False,
 ) -> Rendered:
     """One picture by a student's program, which learns neither where it is nor what for."""
-    words: tuple[Word, ...] = (Input(scene, "scene.nff"), *args, "--quiet")
+    words: tuple[Word, ...] = (Input(scene, _SCENE), *args, "--quiet")
     words += ("-o", Output("picture"), "--stats", Output("stats"))
     words += ("--estimates", Output("estimates")) if estimates else ()
     ran = sandbox.run(program.task(words, limits))
@@ -199,8 +200,9 @@ def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool
     if path.is_file() and all(file.is_file() for file in beside):
         return path
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        picture, stats, means = (Path(folder) / name for name in ("picture.ppm", "stats.json", "estimates"))
-        command: list[str | Path] = [kit.reference("raytrace"), scene, *args, "-o", picture, "--quiet"]
+        alone, picture, stats, means = (Path(folder) / name for name in (_SCENE, "picture.ppm", "stats", "estimates"))
+        alone.write_bytes(scene.read_bytes())  # as a student's program has it: with nothing beside it
+        command: list[str | Path] = [kit.reference("raytrace"), alone, *args, "-o", picture, "--quiet"]
         command += ["--stats", stats]
         command += ["--estimates", means] if estimates else []
         outcome = run(command, seconds=_REFERENCE_SECONDS, cwd=Path(folder))
@@ -209,7 +211,9 @@ def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool
             told = [stats.read_bytes(), *([means.read_bytes()] if estimates else [])]
         except (PictureError, OSError) as error:
             said = outcome.stderr.strip() or str(error)
-            raise GraderFault(f"the reference cannot render {scene.name}: {said}") from error
+            raise GraderFault(
+                f"the reference cannot render {scene.name}, with no other file beside it: {said}"
+            ) from error
         for file, data in zip(beside, told, strict=True):
             write_bytes(file, data)
         write_bytes(path, picture.read_bytes())

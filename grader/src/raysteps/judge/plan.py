@@ -111,8 +111,12 @@ def _check_names(plan: Plan, step: Step) -> None:
         kinds = [group.name for group in known[function.name].groups]
         if list(function.cases) != [*kinds, AGAIN]:
             raise GraderFault(f"{step.id}: cases.toml must list for {function.name}, in this order: {', '.join(kinds)}")
-    if [twin.twin_of for twin in plan.twins] != [image.name for image in step.images]:
-        raise GraderFault(f"{step.id}: cases.toml must list a twin for each picture of step.toml, in its order")
+    twins, pictures = [twin.twin_of for twin in plan.twins], [image.name for image in step.images]
+    if twins != pictures:
+        raise GraderFault(
+            f"{step.id}: cases.toml must list a twin for each picture of step.toml, in its order: "
+            f"{', '.join(pictures)}; found {', '.join(twins) or 'none'}"
+        )
 
 
 _ASKED_AGAIN = 24  # cases, of every function

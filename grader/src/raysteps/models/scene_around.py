@@ -1,13 +1,16 @@
 """The scene around a model: a camera that sees all of it, light, and a floor; as pbrt's format has it, or NFF."""
 
+from base64 import b64encode
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from io import BytesIO
+from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
 
 from raysteps.common.files import write_out
+from raysteps.models import TexturePlace
 from raysteps.models.mesh_file import Floats, Material, Part, mean_color
 
 _WIDTH, _HEIGHT = 640, 480
@@ -87,7 +90,6 @@ def _pbrt_material(part: Part, texture: str | None) -> Iterator[str]:
         )
         return
     if texture is not None:
-        yield f'Texture "{texture}" "spectrum" "imagemap" "string filename" "{texture}"'
         reflectance = f'"texture reflectance" "{texture}"'
     else:
         reflectance = f'"rgb reflectance" [{_row(_plain_color(part))}]'
@@ -111,7 +113,7 @@ def _pbrt_part(part: Part, texture: str | None) -> Iterator[str]:
     yield f'"integer indices" [\n{rows}\n]\nAttributeEnd'
 
 
-def _pbrt_lines(parts: Sequence[Part], textures: dict[int, str]) -> Iterator[str]:
+def _pbrt_lines(parts: Sequence[Part], textures: Sequence[str | None], files: dict[str, str]) -> Iterator[str]:
     corners = _used(parts)
     eye, center = _view(corners)
     drawn, lit = _all_of(parts, corners)
@@ -124,26 +126,39 @@ def _pbrt_lines(parts: Sequence[Part], textures: dict[int, str]) -> Iterator[str
         for place, color in _LIGHTS:
             yield f'LightSource "distant" "point3 from" [{_row(place)}] "point3 to" [0 0 0] "rgb L" [{_row(color)}]'
         yield f'LightSource "infinite" "rgb L" [{_row(_SKY)}]'
-    for number, part in enumerate(drawn):
-        yield from _pbrt_part(part, textures.get(number))
+    for name, file in files.items():
+        yield f'Texture "{name}" "spectrum" "imagemap" "string filename" "{file}"'
+    for part, texture in zip_longest(drawn, textures):  # the floor has none
+        yield from _pbrt_part(part, texture)
 
 
-def write_pbrt(parts: Sequence[Part], path: Path, *, textures: bool) -> None:
-    """The scene, and beside it a PNG for each texture; without `textures`, one file, as a scene that is graded is."""
-    parts = _sized(parts)
-    names: dict[int, str] = {}
-    known: dict[bytes, str] = {}  # the same once more, of another part
-    for number, part in enumerate(parts):
+def _textures_of(parts: Sequence[Part], path: Path, where: TexturePlace) -> tuple[list[str | None], dict[str, str]]:
+    """The name of each part's texture, and what stands for the file of each name: that of a PNG which is written beside
+    the scene, or the PNG itself (RFC 2397)."""
+    names: list[str | None] = []
+    files: dict[bytes, str] = {}  # by what they hold: several parts may have the same
+    for part in parts:
         image = part.material.texture
-        if not textures or image is None or part.uvs is None:
+        if where == "none" or image is None or part.uvs is None:
+            names.append(None)
             continue
         data = BytesIO()
         image.save(data, "PNG")
-        if data.getvalue() not in known:
-            known[data.getvalue()] = f"{path.stem}-{len(known) + 1}.png"
-            write_out(path.with_name(known[data.getvalue()]), data.getvalue())
-        names[number] = known[data.getvalue()]
-    write_out(path, ("\n".join(_pbrt_lines(parts, names)) + "\n").encode())
+        png = data.getvalue()
+        if png not in files:
+            files[png] = f"data:image/png;base64,{b64encode(png).decode()}"
+            if where == "beside":
+                files[png] = f"{path.stem}-{len(files)}.png"
+                write_out(path.with_name(files[png]), png)
+        names.append(f"texture-{1 + list(files).index(png)}")
+    return names, {f"texture-{number}": file for number, file in enumerate(files.values(), 1)}
+
+
+def write_pbrt(parts: Sequence[Part], path: Path, *, textures: TexturePlace) -> None:
+    """The scene, and its textures where they are wanted."""
+    parts = _sized(parts)
+    lines = _pbrt_lines(parts, *_textures_of(parts, path, textures))
+    write_out(path, ("\n".join(lines) + "\n").encode())
 
 
 def _nff_lines(parts: Sequence[Part]) -> Iterator[str]:

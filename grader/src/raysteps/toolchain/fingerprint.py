@@ -13,7 +13,7 @@ _NO_GRADE = "bootstrap|cli|exports|gallery|inspector|progress|release|report|upd
 _SOURCES = {
     "framework": r".*\.(hpp|cpp|cmake|txt)",
     "cmake": r".*\.cmake",
-    "scenes": r".*\.(nff|py)",
+    "scenes": r".*\.(nff|pbrt|py)",
     "solutions": r"[0-9]{2}-[a-z0-9-]+/[a-z_]+\.(cpp|toml|py)",
     "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
     "grader/stubs": r".*\.cpp",
