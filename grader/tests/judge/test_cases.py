@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.project import Project
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.judge.protocol import f32, text
+from raysteps.judge.protocol import f32, text, vec_of
 
 pytestmark = pytest.mark.portable
 
@@ -105,3 +105,15 @@ def test_a_bad_plan_is_the_kits_fault(
     bad = good.replace(old, new, 1)
     with pytest.raises(GraderFault, match=said):
         read_plan(_with_plan(tmp_path, steps[0], bad), steps[0])
+
+
+@pytest.mark.parametrize(("number", "name"), [("12", "turned_to"), ("13", "cosine_direction")])
+def test_every_grade_asks_for_normals_with_three_parts_that_are_the_same(
+    project: Project, number: str, name: str
+) -> None:
+    """And so do the cases by which mistakes are known: two at least, so that one has a name."""
+    (step,) = choose(kit_steps(project), [number])
+    plan = next(one for one in _plan(project, step).functions if one.name == name)
+    for seed in ("diagnosis", *range(1, 21)):
+        normals = [vec_of(case.inputs, "normal") for case in make_cases(step, plan, seed)]
+        assert sum(len(set(normal)) == 1 for normal in normals) >= 2, seed

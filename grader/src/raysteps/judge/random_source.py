@@ -24,7 +24,7 @@ def circle(turn: float) -> tuple[float, float]:
 
 class RandomSource:
     """A source of random values. The first five are the choices that all others are made of: who changes these has
-    another source (judge/choices.py)."""
+    another source (judge/choice_sequence.py)."""
 
     def __init__(self, seed: str) -> None:
         self._random = random.Random(seed)  # noqa: S311 - cases, not secrets
@@ -89,9 +89,12 @@ class RandomSource:
         return x, y, z
 
     def diagonal(self) -> Vector:
-        """Between three axes, as near to one as to the others."""
-        side = f32(math.sqrt(1 / 3))
-        return self.sign() * side, self.sign() * side, self.sign() * side
+        """Between three axes, as near to one as to the others; more than half of them with three parts that are the
+        same, which have nothing across when they are moved round."""
+        side = self.sign() * f32(math.sqrt(1 / 3))
+        if self.chance(0.5):
+            return side, side, side
+        return side, self.sign() * side, self.sign() * side
 
     def above(self, normal: Vector, low: float, high: float = 1.0) -> Vector:
         """A direction whose cosine with the normal lies between low and high."""
