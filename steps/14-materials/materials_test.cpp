@@ -363,6 +363,32 @@ TEST_CASE("frosted glass spreads what goes through it", "[14-materials][scatter_
     CHECK(most.y - least.y > 0.3F);
 }
 
+TEST_CASE("frosted glass mirrors alike at all the microfacets that it meets from above",
+          "[14-materials][scatter_glass]") {
+    INFO("a microfacet that leans by 20 degrees mirrors 4 % of the light, just as one that lies flat");
+    constexpr float k_alpha = 0.1F;
+    const HitRecord hit = rough_hit(1.0F, k_alpha);
+    float mirrored = 0.0F;
+    float lean = 0.0F;
+    glm::vec2 side(0.0F);
+    many_times(10000, [&](RandomStream& random) {
+        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+        if (!sample || sample->direction.z <= 0.0F) {
+            return;
+        }
+        const glm::vec3 normal = glm::normalize(sample->direction + k_up);
+        const glm::vec2 slope = glm::vec2(normal) / normal.z;
+        const float steepness = glm::dot(slope, slope);
+        mirrored += 1.0F;
+        lean += steepness / (steepness + k_alpha * k_alpha);  // even from 0 to 1, of GGX seen from above
+        side += slope / std::max(1e-6F, glm::length(slope));
+    });
+    REQUIRE(mirrored > 200.0F);
+    INFO("on a scale on which all leans are even their mean is 0.5, and they lean to all sides");
+    CHECK(std::abs(lean / mirrored - 0.5F) < 0.12F);
+    CHECK(glm::length(side / mirrored) < 0.3F);
+}
+
 TEST_CASE("frosted glass hides some of its microfacets, both ways", "[14-materials][scatter_glass]") {
     const auto lambda = [](float z) { return (std::sqrt(1.0F + 0.64F * (1.0F - z * z) / (z * z)) - 1.0F) / 2.0F; };
     const HitRecord hit = rough_hit(0.4F, 0.8F);
