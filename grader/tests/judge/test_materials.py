@@ -185,13 +185,15 @@ def test_each_part_of_a_sample_of_glass_is_looked_at(line: str, said: str) -> No
 _FROST = 0.4
 
 
-def _frosted(seed: int, *, steepest_first: bool = False) -> str:
+def _frosted(seed: int, *, first: str = "") -> str:
     view = np.array([0.6, 0.0, 0.8])
     normals = _seen(seed, _FROST, view)
     cosines = normals @ view
     odds = np.random.default_rng(1000 + seed).random(_TIMES)
-    if steepest_first:  # as if the number that decides were that which chose the microfacet
-        odds = np.argsort(np.argsort(-cosines)) / _TIMES
+    if first in ("steepest", "flattest"):  # as if the number that decides were that which chose the microfacet
+        odds = np.argsort(np.argsort(-(cosines if first == "steepest" else normals[:, 2]))) / _TIMES
+    elif first == "of one side":
+        odds = np.where(normals[:, 1] > 0, odds, 1 + odds) / 2
     is_mirrored = (odds < dielectric(cosines, 1 / 1.5))[:, None]
     further = np.sqrt(1 - (1 - cosines**2) / 1.5**2)
     through = (cosines / 1.5 - further)[:, None] * normals - view / 1.5
@@ -212,5 +214,6 @@ def test_what_is_mirrored_in_frosted_glass_is_fresnels_to_say() -> None:
     right = _frosted(0)
     for seed in range(20):
         assert not _said("scatter_glass", inputs, right, _frosted(seed))
-        said = _said("scatter_glass", inputs, right, _frosted(seed, steepest_first=True))
-        assert "depends on the microfacet" in said
+        for first in ("steepest", "flattest", "of one side"):
+            said = _said("scatter_glass", inputs, right, _frosted(seed, first=first))
+            assert "depends on the microfacet" in said

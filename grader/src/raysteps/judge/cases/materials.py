@@ -459,7 +459,7 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     shares = dielectric(cosines, eta)
     return (
         _share_problem(is_mirrored, shares, samples.nothing)
-        or (_odds_problem(is_mirrored, shares, cosines, samples.nothing) if alpha else ""),
+        or (_odds_problem(is_mirrored, shares, view, normals, samples.nothing) if alpha else ""),
         "the weight is wrong" if _weights_differ(samples.weights, right, steep) else "",
         rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
         "" if samples.are_specular else "a sample of glass is not specular",
@@ -476,12 +476,21 @@ def _astray(is_mirrored: Mask, normals: Numbers) -> str:
     return f"the {'mirrored' if (off & is_mirrored).any() else 'refracted'} direction is wrong"
 
 
-def _odds_problem(is_mirrored: Mask, shares: Numbers, cosines: Numbers, nothing: int) -> str:
-    """The number that decides may be that which chose the microfacet: then steep ones are mirrored too often."""
-    steep = cosines > np.median(cosines)
-    if any(_share_problem(is_mirrored[half], shares[half], nothing) for half in (steep, ~steep)):
-        return "whether light is mirrored depends on the microfacet by more than Fresnel's share: draw it anew"
-    return ""
+def _odds_problem(is_mirrored: Mask, shares: Numbers, view: Numbers, normals: Numbers, nothing: int) -> str:
+    """The number that decides may be that which chose the microfacet: then those are mirrored too often that face the
+    view, lie flat, or lean to one side of the view. What a view sees is the same on its two sides."""
+    for measure in (_dots(view, normals), normals[:, 2]):
+        more = measure > np.median(measure)
+        if any(_share_problem(is_mirrored[half], shares[half], nothing) for half in (more, ~more)):
+            return _NOT_DRAWN_ANEW
+    x, y, _ = view[0]
+    across = normals[:, 0] * y - normals[:, 1] * x if math.hypot(x, y) > _STRAIGHT else normals[:, 0]
+    left = across[is_mirrored] > 0
+    return "" if may_be_so_many(int(left.sum()), np.full(len(left), 0.5), 0) else _NOT_DRAWN_ANEW
+
+
+_NOT_DRAWN_ANEW = "whether light is mirrored depends on the microfacet by more than Fresnel's share: draw it anew"
+_STRAIGHT = 1e-3  # a view from straight above is the same on all sides
 
 
 def _share_problem(is_mirrored: Mask, shares: Numbers, nothing: int) -> str:
