@@ -7,6 +7,7 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import date
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -132,6 +133,19 @@ def read_step(path: Path) -> Step:
     """Reads one manifest; a bad one is the kit's fault."""
     try:
         text = path.read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        raise _no_manifest(path, error) from error
+    return _parse(text, path)
+
+
+def _no_manifest(path: Path, error: Exception) -> GraderFault:
+    return GraderFault(f"{path}: not a step manifest: {reason(error)}")
+
+
+@lru_cache(maxsize=64)
+def _parse(text: str, path: Path) -> Step:
+    """Once while it stays the same: a grade asks for all steps seven times."""
+    try:
         table = tomllib.loads(text)
         weights = table["weights"]
         step = Step(
@@ -157,8 +171,8 @@ def read_step(path: Path) -> Step:
             part=_part(table.get("part", 1)),
             left_out=bool(table.get("left_out", False)),
         )
-    except (OSError, KeyError, TypeError, ValueError, AttributeError) as error:
-        raise GraderFault(f"{path}: not a step manifest: {reason(error)}") from error
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise _no_manifest(path, error) from error
     if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
         raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
     if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
