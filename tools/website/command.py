@@ -16,10 +16,9 @@ from raysteps.release.leaks import find_leaks
 from raysteps.release.page_parts import is_page
 from raysteps.release.secrets import gather
 from raysteps.report.terminal import short_path
-from raysteps.toolchain.kit_artifacts import paced
 from tools.website.build import GALLERY, PLAY, SITE, build_site, check_tools, stage
 from tools.website.documents import COMMANDS_PAGE, bad_formulas, dead_links, documents
-from tools.website.live_figures import LiveFigures, make_live_figures
+from tools.website.live_figures import LiveFigures, check_live, make_live_figures
 from tools.website.made_pages import api_pages, command_page
 
 
@@ -33,8 +32,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _check(project: Project, out: Path, gallery: Path | None, play: Path | None) -> None:
+def _check(project: Project, out: Path, arguments: argparse.Namespace) -> None:
     SITE.check(out)
+    gallery: Path | None = arguments.gallery
+    play: Path | None = arguments.play
+    if arguments.live:
+        check_live(project)
     if play is not None:
         if not is_page(play):
             raise UsageError(
@@ -81,14 +84,14 @@ def _build(
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Builds all of it anew."""
     out: Path = (arguments.out or project.build / "site").absolute()
-    _check(project, out, arguments.gallery, arguments.play)
+    _check(project, out, arguments)
     check_tools()
+    live = make_live_figures(project, registry_of(None), console.print) if arguments.live else None
     troubles = _troubles(project)
     if not troubles:
         pages = {COMMANDS_PAGE: command_page(project, new_parser(project)), **api_pages(project)}
         asked = {GALLERY: arguments.gallery, PLAY: arguments.play}
         made_before = {page: folder for page, folder in asked.items() if folder is not None}
-        live = make_live_figures(project, registry_of(None), paced(console.print)) if arguments.live else None
         troubles = _build(project, out, made_before, pages, live, console)
     for trouble in troubles:
         console.print(escape(trouble), highlight=False)

@@ -19,6 +19,7 @@ from raysteps.play.packages import CLANG, fetch
 from raysteps.play.web_clang import WebClang
 from raysteps.play.web_kit import WebKit
 from raysteps.release.leaks import LIVE_PROGRAM
+from raysteps.toolchain.kit_artifacts import paced
 
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "\./([\w-]+\.js)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async function|function|class|const) (\w+))", re.MULTILINE)
@@ -90,13 +91,17 @@ class LiveFigures:
         return f'\n\n<script defer src="{static}/{_SCRIPT}" {words}></script>\n'
 
 
-def make_live_figures(project: Project, registry: str, say: Callable[[str], None]) -> LiveFigures:
-    """With the compiler of the page to work in, which is made ready where it has never run."""
+def check_live(project: Project) -> None:
+    """A usage error where there can be none."""
     if not project.has_reference:
         raise UsageError("live figures of the site are the reference's functions, which this kit does not have")
-    cache = project.build / "play"
+
+
+def make_live_figures(project: Project, registry: str, say: Callable[[str], None]) -> LiveFigures:
+    """With the compiler of the page to work in, which is made ready where it has never run."""
+    cache, far = project.build / "play", paced(say)
     with one_at_a_time(cache / ".lock", lambda: say("waiting for another command")):
-        clang = WebClang(fetch(CLANG, cache / "packages", registry, say), cache, say)
-        program = WebKit(project, clang, say).figures().read_bytes()
+        clang = WebClang(fetch(CLANG, cache / "packages", registry, far), cache, say)
+        program = WebKit(project, clang, far).figures().read_bytes()
     letters = base64.b64encode(gzip.compress(program, mtime=0)).decode("ascii")
     return LiveFigures(_style(), {_SCRIPT: _script(), _PROGRAM: f'{LIVE_PROGRAM.decode()}"{letters}";\n'})

@@ -14,7 +14,8 @@ from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
 from raysteps.play.packages import registry_of
 from raysteps.release.leaks import strange
-from tools.website.live_figures import in_one_script, make_live_figures
+from tools.website import command
+from tools.website.live_figures import check_live, in_one_script, make_live_figures
 
 pytestmark = [pytest.mark.xdist_group("play")]
 _DRAWN = ".live[data-state=drawn]"
@@ -37,7 +38,16 @@ def test_a_module_and_what_it_imports_become_one_script() -> None:
 
 def test_a_students_kit_has_none(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="the reference's functions, which this kit does not have"):
-        make_live_figures(Project(tmp_path), "https://registry.example", print)
+        check_live(Project(tmp_path))
+
+
+def test_what_they_lack_is_said_before_anything_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise UsageError("no network")
+
+    monkeypatch.setattr(command, "make_live_figures", refuse)
+    monkeypatch.setattr(command, "dead_links", lambda *_: pytest.fail("the documents were read before"))
+    assert main(["docs", "--live", "--out", str(tmp_path / "out")]) == 2
     assert list(tmp_path.iterdir()) == []
 
 

@@ -11,7 +11,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import gaps, parse_ppm
 from raysteps.play.packages import CLANG, fetch, registry_of
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
-from raysteps.play.web_kit import WebKit
+from raysteps.play.web_kit import Wanted, WebKit
 from raysteps.release.build_release import first_steps, write_release
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -141,19 +141,36 @@ def test_its_own_sources_compile_where_steps_are_missing(
     folder = tmp_path / "kit"
     write_release(kit, first_steps(["1-4"], steps), "Graphics 101", folder)
     page = WebKit(Project(folder), clang)
-    wanted = [one for some in page._wanted().values() for one in some]
+    wanted = [one for some in page._wanted.values() for one in some]
     own = [one for one in wanted if one.source.path.startswith("framework/web/")]
-    alone = "framework/web/figures_main.cpp"  # which only the site has
     sources = {path.relative_to(folder).as_posix() for path in (folder / "framework" / "web").glob("*.cpp")}
-    assert {one.source.path for one in own} == sources - {alone}
+    assert {one.source.path for one in own} == sources
     assert all(page._made(one).stat().st_size > 0 for one in own)
+
+
+def test_the_sites_program_takes_neither_tests_nor_other_programs(
+    clang: WebClang, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    compile_one, made, said = WebKit._made, list[str](), list[str]()
+
+    def listed(kit: WebKit, wanted: Wanted) -> Path:
+        made.append(wanted.source.path)
+        return compile_one(kit, wanted)
+
+    monkeypatch.setattr(WebKit, "_made", listed)
+    assert WebKit(project, clang, said.append).figures().is_file()
+    folders = {path.rpartition("/")[0] for path in made}
+    assert {"framework/core", "framework/render", "framework/web"} <= folders
+    assert not folders & {"framework/apps", "framework/inspect", "framework/testing"}
+    assert not [path for path in made if path.endswith("_test.cpp")]
+    assert said == [f"compiling the kit for the page (once): {done + 1} of {len(made)}" for done in range(len(made))]
 
 
 def test_it_tells_which_headers_it_has_read(clang: WebClang, project: Project) -> None:
     """Those of precompiled headers, too."""
     page = WebKit(project, clang)
     before = page.used
-    (wanted,) = [one for one in page._wanted()["kit"] if one.source.path == "framework/render/encode.cpp"]
+    (wanted,) = [one for one in page._wanted["kit"] if one.source.path == "framework/render/encode.cpp"]
     page._made(wanted)
     places = [place.with_suffix(".headers") for place in page.used if place not in before]
     read = [path.read_text("utf-8").splitlines() for path in places if path.is_file()]

@@ -14,7 +14,6 @@ from raysteps.common.local_server import end_as_interrupted, shown_in_browser
 from raysteps.course.project import Project
 from raysteps.play.packages import REGISTRY, registry_of
 from raysteps.play.play_page import PlayPage, PlayServer, publish, refuse_to_publish
-from raysteps.toolchain.kit_artifacts import paced
 
 _PORT = 8471  # a browser keeps what it is given by this number, too: it has to be the same every time
 
@@ -43,7 +42,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     end_as_interrupted()
     if arguments.out is not None:
         refuse_to_publish(project, arguments.out)  # before the page is made, which may take minutes
-        publish(PlayPage(project, registry_of(arguments.registry), paced(say)).make(), arguments.out)
+        publish(PlayPage(project, registry_of(arguments.registry), say).make(), arguments.out)
         say(f"The page is in {arguments.out}. Put this folder on any web space.")
         return 0
     try:
@@ -51,7 +50,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     except UsageError as error:
         raise UsageError(f"{error}. What you write on the page is kept by its port") from error
     try:
-        folder = PlayPage(project, registry_of(arguments.registry), paced(say)).make()
+        folder = PlayPage(project, registry_of(arguments.registry), say).make()
         with suppress(KeyboardInterrupt), ExitStack() as stack:
             server.folder = folder
             say(f"Page: {server.address}")

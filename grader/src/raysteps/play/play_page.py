@@ -35,6 +35,7 @@ from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import MOST_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
 from raysteps.report.wording import inspect_options
+from raysteps.toolchain.kit_artifacts import paced
 
 Say = Callable[[str], None]
 
@@ -186,11 +187,12 @@ class PlayPage:
     ) -> None:
         self._project = project
         self._registry = registry
-        self._say = say
+        self._say_once = say
+        self._say = paced(say)
         self._cache = cache or project.build / "play"
         self._packages = self._cache / "packages"
-        self._clang = WebClang(fetch(CLANG, self._packages, registry, say), self._cache, say)
-        self._kit = WebKit(project, self._clang, say)
+        self._clang = WebClang(fetch(CLANG, self._packages, registry, self._say), self._cache, say)
+        self._kit = WebKit(project, self._clang, self._say)
         self._content: dict[str, bytes] = {}
 
     def _add(self, name: str, data: bytes) -> str:
@@ -199,7 +201,7 @@ class PlayPage:
 
     def make(self) -> Path:
         """The folder, in which index.html is the page. A page that is served already keeps its own."""
-        with one_at_a_time(self._cache / ".lock", lambda: self._say("waiting for another command")):
+        with one_at_a_time(self._cache / ".lock", lambda: self._say_once("waiting for another command")):
             self._collect()
             folder = written_once(self._cache, "site", self._content)
             packages = [self._packages / package.folder for package in (CLANG, *EDITOR)]
@@ -283,6 +285,7 @@ class PlayPage:
         return self._add(f"texts/{paths[0].relative_to(root).as_posix()}.txt", paths[0].read_bytes())
 
     def _described(self, step: Step, steps: list[Step]) -> dict[str, Any]:
+        self._say(f"drawing the pictures of step {step.number} (once)")
         text = (self._project.steps / step.id / "README.md").read_text("utf-8")
         numbers = {other.id: other.number for other in steps}
         self._add(

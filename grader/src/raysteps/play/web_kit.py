@@ -9,8 +9,8 @@ import re
 import shlex
 import tempfile
 import threading
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -167,6 +167,7 @@ class WebKit:
         self.model = "reference" if project.has_reference else "stub"
         self._cache = clang.cache
         self._used: set[Path] = set()
+        self._made_before: dict[Wanted, Path] = {}
         self._header_marks: dict[str, str] = {}
         self._turn = threading.Lock()  # to compile headers, which several sources wait for
 
@@ -274,24 +275,31 @@ class WebKit:
         marks = [f"{name} {self._header_mark(name)}" for name in listed.read_text("utf-8").splitlines()]
         return self._place(_digest(listed.stem, *marks), ending)
 
+    @cached_property
     def _wanted(self) -> dict[str, list[Wanted]]:
-        """What is to be made, by the name of the part that it belongs to."""
+        """What is to be made, by the name of the part that it belongs to. `kit` is what programs take what they need
+        from; `figures` is the site's."""
         of = self._sources.of
         libraries = [one for name in ("core", "io", "render", "absent") for one in of(f"raysteps-{name}")]
         paths = sorted((self._project.root / _WEB).glob("*.cpp"))
         own = [self._name(path) for path in paths]
         beside = (_EXCEPTIONS, _PAGE_MAIN, _FIGURES_MAIN)
-        raytrace = of("raytrace-app")
         inspect = [*of("inspect-app"), *of("raysteps-inspect-recorded"), *of("raysteps-inspect")]
         parts = {
-            "web": [_own(_PAGE_MAIN)],
+            "web": [
+                _own(_PAGE_MAIN),
+                *(
+                    Wanted(source, flags=(_QUIET,) if source in inspect else _RAYTRACE, headers=_KIT_HEADERS)
+                    for source in of("raytrace-app")
+                ),
+                *(Wanted(source, "-Oz", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
+            ],
             "exceptions": [_own(_EXCEPTIONS)],
-            "inspect": [Wanted(source, headers=_KIT_HEADERS) for source in inspect if source not in raytrace],
+            "inspect": [Wanted(source, headers=_KIT_HEADERS) for source in inspect],
+            "figures": [_own(_FIGURES_MAIN)],
             "kit": [
                 *(Wanted(source, headers=_KIT_HEADERS) for source in libraries),
                 *(_own(name) for name in own if name not in beside),
-                *(Wanted(source, flags=_RAYTRACE, headers=_KIT_HEADERS) for source in raytrace),
-                *(Wanted(source, "-Oz", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
             ],
         }
         for step in self.steps:
@@ -304,27 +312,24 @@ class WebKit:
             raise GraderFault("CMake's list of commands lacks parts of the kit")
         return parts
 
-    @cached_property
-    def _objects(self) -> dict[str, list[Path]]:
-        """`kit`, `web`, `exceptions`, `inspect`, `test-NN` and `step-NN`."""
-        parts = self._wanted()
-        total, done = sum(map(len, parts.values())), 0
+    def _objects(self, names: Iterable[str]) -> dict[str, list[Path]]:
+        """Those of these parts. What is in several parts is compiled once."""
+        parts = {name: self._wanted[name] for name in names}
+        wanted = [one for one in dict.fromkeys(itertools.chain(*parts.values())) if one not in self._made_before]
         _ = self._commands, self._places, self._common_mark  # before several ask for them at once
         with ThreadPoolExecutor(MOST_AT_ONCE) as pool:
-            waiting = {name: [pool.submit(self._made, one) for one in some] for name, some in parts.items()}
-            made: dict[str, list[Path]] = {}
-            for name, some in waiting.items():
-                made[name] = [one.result() for one in some]
-                done += len(some)
-                self._say(f"compiling the kit for the page (once): {done} of {total}")
-        return made
+            jobs = {pool.submit(self._made, one): one for one in wanted}
+            for done, job in enumerate(as_completed(jobs), 1):
+                self._made_before[jobs[job]] = job.result()
+                self._say(f"compiling the kit for the page (once): {done} of {len(jobs)}")
+        return {name: [self._made_before[one] for one in some] for name, some in parts.items()}
 
     # What the page is given.
 
     @cached_property
     def _archive(self) -> Path:
         """The framework: a program takes from it what it needs."""
-        objects = self._objects["kit"]
+        objects = self._objects(["kit"])["kit"]
         target = self._kept("a", *(path.name for path in objects))
         if not target.is_file():
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -340,7 +345,7 @@ class WebKit:
 
     def parts(self) -> Parts:
         """All objects, by the paths that the linker in the page knows them by."""
-        named = {name: some for name, some in self._objects.items() if name != "kit"} | {"kit": [self._archive]}
+        named = self._objects(name for name in self._wanted if name != "figures") | {"kit": [self._archive]}
         found = {f"{_PARTS}/{path.name}": path for some in named.values() for path in some}
         return Parts(
             {name.lstrip("/"): path.read_bytes() for name, path in found.items()},
@@ -360,9 +365,10 @@ class WebKit:
         """How these are compiled; the page does it, too, when a student includes something else."""
         return [*self._commands["-O2", True], *_INCLUDES, *_WARNINGS, *_PORTABLE]
 
-    def _linked(self, inputs: Sequence[Path]) -> Path:
-        """A program of these objects and of what they need of the framework."""
-        inputs = [*inputs, self._archive]
+    def _linked(self, *names: str) -> Path:
+        """A program of these parts and of what they need of the framework."""
+        parts = self._objects([*names, "kit"]) | {"kit": [self._archive]}
+        inputs = [path for some in parts.values() for path in some]
         target = self._kept("wasm", *(path.name for path in inputs))
         if not target.is_file():
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
@@ -375,21 +381,18 @@ class WebKit:
         return target
 
     @property
-    def _model(self) -> list[Path]:
-        """The objects of every step, and what they need in a browser."""
-        names = ["exceptions", *(f"step-{step.number}" for step in self.steps)]
-        return [path for name in names for path in self._objects[name]]
+    def _model(self) -> list[str]:
+        """The parts of every step, and what they need in a browser."""
+        return ["exceptions", *(f"step-{step.number}" for step in self.steps)]
 
     @cached_property
     def _program(self) -> Path:
         """With all visible tests; every step is the model's."""
-        tests = [path for step in self._shown for path in self._objects[f"test-{step.number}"]]
-        return self._linked([*self._objects["web"], *self._model, *tests])
+        return self._linked("web", *self._model, *(f"test-{step.number}" for step in self._shown))
 
     def figures(self) -> Path:
         """A program of the live figures alone; every step is the model's."""
-        model = self._model  # before: it says what is being compiled
-        return self._linked([self._made(_own(_FIGURES_MAIN)), *model])
+        return self._linked("figures", *self._model)
 
     def _ran(self, words: Sequence[str], made: str, scene: Path | None = None, option: str = "-o") -> Path:
         """The file that the reference's program makes, by that option."""
