@@ -30,6 +30,7 @@ if TYPE_CHECKING:  # only this command waits for it
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
 _MILLISECONDS = 180_000  # until a step was tested and drawn
+_BEFORE_SAVE = 2000  # milliseconds that the text is there: then what it includes is compiled, as while somebody types
 _NUMBER = re.compile(r"\d")
 _SUMMED = "() => /tests pass|does not compile/.test(document.getElementById('play-status').textContent)"
 
@@ -84,6 +85,7 @@ def _drawn(page: "Page", step: Step, text: str | None = None) -> float:
         page.locator(".cm-content").click()
         page.keyboard.press("ControlOrMeta+a")
         page.keyboard.insert_text(text)
+        page.wait_for_timeout(_BEFORE_SAVE)
         page.evaluate("() => document.querySelectorAll('.play-picture').forEach(one => delete one.dataset.seconds)")
         page.keyboard.press("ControlOrMeta+s")
     picture = page.locator(f"#picture-{step.images[0].name}")

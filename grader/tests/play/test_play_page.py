@@ -200,6 +200,26 @@ def test_headers_are_those_that_the_source_includes(page: "Page", solved: dict[s
     expect(page.locator("#play-problems")).to_contain_text("'no/such.hpp' file not found", timeout=STARTED)
 
 
+_HEAR_STATUS = """() => {
+    const status = document.getElementById("play-status");
+    const heard = window.heard = [];
+    new MutationObserver(() => heard.push(status.textContent)).observe(status, { childList: true });
+}"""
+
+
+def test_what_is_included_is_compiled_before_it_is_saved(page: "Page", solved: dict[str, str]) -> None:
+    from playwright.sync_api import expect
+
+    page.evaluate(_HEAR_STATUS)
+    write(page, f"#include <array>\n{solved['01-camera-rays']}const std::array<int, 1> mine{{}};\n")
+    expect(page.locator("#play-kept")).to_have_text("Kept in this browser.")
+    page.keyboard.press("ControlOrMeta+s")
+    _says(page, r"Step 01 is right")
+    heard = page.evaluate("window.heard")
+    assert "Compiling ..." in heard
+    assert not [words for words in heard if "Compiling what you include" in words]
+
+
 def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 

@@ -91,8 +91,9 @@ async function headersOfOwn(step, includes) {
   return code === 0 ? path : null;
 }
 
-/** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely. */
-async function prepareHeaders(job, step, source) {
+/** The path of the compiled headers of a source, or nothing where they do not compile. They change rarely; `tell` is
+ * called before others than the stub's are compiled. */
+async function prepareHeaders(step, source, tell) {
   const includes = firstIncludes(source);
   const known = headers.get(step.number);
   if (known?.includes === includes) {
@@ -100,7 +101,7 @@ async function prepareHeaders(job, step, source) {
   }
   const isStub = includes === step.headers.includes;
   if (!isStub) {
-    postMessage({ job, headers: true });
+    tell();
   }
   const path = isStub ? await headersOfStub(step) : await headersOfOwn(step, includes);
   headers.set(step.number, { includes, path });
@@ -122,7 +123,7 @@ async function compile(job, step, source) {
   const object = `/work/own-${step.number}.o`;
   files.remove(object);
   files.write(step.source, new TextEncoder().encode(source));
-  const path = await prepareHeaders(job, step, source);
+  const path = await prepareHeaders(step, source, () => postMessage({ job, headers: true }));
   const words = [...filled(kit.compile, [step.source], object), ...(path ? ["-include-pch", path] : [])];
   const said = runProgram(clang, words, files);
   const made = { key, object, code: said.code, says: said.stderr + said.stdout };
@@ -167,9 +168,17 @@ async function build({ job, number, sources, inspects }) {
   postMessage({ job, done: true, program: bytes, seconds }, bytes ? [bytes.buffer] : []);
 }
 
+/** What is asked: to load all, to build, or to compile headers before somebody waits for them. */
+function answer(data) {
+  if (data.kit) {
+    return prepare(data);
+  }
+  return data.ahead ? prepareHeaders(kit.steps[data.ahead], data.source, () => {}) : build(data);
+}
+
 let queue = Promise.resolve();
 addEventListener("message", ({ data }) => {
   queue = queue
-    .then(() => (data.kit ? prepare(data) : build(data)))
+    .then(() => answer(data))
     .catch((error) => postMessage({ job: data.job, failed: String(error?.message ?? error) }));
 });

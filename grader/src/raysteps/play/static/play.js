@@ -197,7 +197,10 @@ class Page {
   #changed() {
     clearTimeout(this.#keepTimer);
     element("play-kept").textContent = "";
-    this.#keepTimer = setTimeout(() => this.#keep(), KEEP_AFTER);
+    this.#keepTimer = setTimeout(() => {
+      this.#compiler.lookAhead(this.#step.number, this.#editor.text);
+      this.#keep();
+    }, KEEP_AFTER);
   }
 
   async #keep() {

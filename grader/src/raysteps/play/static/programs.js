@@ -108,6 +108,13 @@ export class Compiler {
     });
   }
 
+  /** Compiles what a source includes, so that its build need not: where nothing else is to be done. */
+  lookAhead(number, source) {
+    if (!this.#answer) {
+      this.#worker?.postMessage({ ahead: number, source });
+    }
+  }
+
   stop(reason) {
     if (this.#answer) {
       this.#worker.terminate();
