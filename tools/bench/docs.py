@@ -197,7 +197,7 @@ def waits_tables(document: WaitsNumbers) -> str:
 
 
 def play_tables(document: PlayNumbers) -> str:
-    """One line for each step; what the first visit loads above."""
+    """One line for each step, what the first visit loads above; and one for each live figure."""
     rows = [(row.step, f"{row.first:.2f}", spread(row.later, 2)) for row in document.rows]
     visit = f"{document.first_bytes / 1e6:.1f} MB, and {document.first_seconds:.1f} s until its first picture"
     known = document.memory_bytes > 0
@@ -205,7 +205,15 @@ def play_tables(document: PlayNumbers) -> str:
     machine = f"{document.machine.processor}, {document.machine.cores} cores, {document.machine.system}"
     words = f"{document.browser}, local server; {machine}. The first visit: {visit}{memory}."
     table = markdown(("step", "first save, s", "later saves, s"), rows)
-    return f"{fill(words, 120, break_on_hyphens=False)}\n\n{table}"
+    dragged = "The live figures while a handle is dragged, each frame with an answer of its own:"
+    figures = markdown(
+        ("step", "figure", "frames per second", "median, ms", "95 % within, ms"),
+        [
+            (one.step, one.figure, f"{one.per_second:.0f}", f"{one.median:.0f}", f"{one.most:.0f}")
+            for one in document.figures
+        ],
+    )
+    return f"{fill(words, 120, break_on_hyphens=False)}\n\n{table}\n\n{dragged}\n\n{figures}"
 
 
 def boxes_tables(document: BoxesNumbers) -> str:

@@ -405,6 +405,17 @@ class SaveRow:
     later: Spread
 
 
+@dataclass(frozen=True)
+class FigureRow:
+    """One live figure while a handle of it is dragged: the time between two frames in which it is drawn anew."""
+
+    step: str
+    figure: str
+    per_second: Amount
+    median: Amount  # milliseconds
+    most: Amount  # of 95 % of them
+
+
 @dataclass(frozen=True, kw_only=True)
 class PlayNumbers:
     """How long people wait in the page to work in."""
@@ -417,6 +428,7 @@ class PlayNumbers:
     first_seconds: Amount
     memory_bytes: Count
     rows: Annotated[list[SaveRow], Meta(min_length=1)]
+    figures: list[FigureRow]
 
 
 Numbers = (

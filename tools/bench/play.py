@@ -1,12 +1,14 @@
-"""The command `bench play`: how long people wait in the page to work in."""
+"""The command `bench play`: how long people wait in the page to work in, and how its live figures move."""
 
 import os
 import re
 import shutil
+import statistics
 import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,8 +22,7 @@ from raysteps.course.stubs import without_markers
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer
 from raysteps.toolchain.cmake import release_tree
-from raysteps.toolchain.kit_artifacts import paced
-from tools.bench.model import PlayNumbers, SaveRow, Spread, keep
+from tools.bench.model import FigureRow, PlayNumbers, SaveRow, Spread, keep
 from tools.bench.programs import machine
 from tools.bench.tables import median, terminal_table
 
@@ -106,15 +107,58 @@ def _visited(browser: "Browser", address: str, first: Step) -> "tuple[Page, int,
     return page, sum(loaded), time.monotonic() - start
 
 
+# Moves the handle that the mouse holds round beside where it was, once in each frame; gives when each frame came in
+# which the figure was drawn anew, in milliseconds.
+_DRAG = """(figure, [x, y, moves]) => new Promise((resolve) => {
+    const handle = figure.querySelector(".live-handle:focus");
+    const frames = [];
+    let isDrawn = false;
+    const watch = new MutationObserver(() => { isDrawn = true; });
+    watch.observe(figure.querySelector(".live-views"), { childList: true, subtree: true });
+    const tick = (now) => {
+        if (isDrawn) {
+            frames.push(now);
+        }
+        isDrawn = false;
+        if (moves-- === 0) {
+            resolve(frames);
+            return;
+        }
+        const [clientX, clientY] = [x + 40 * Math.cos(moves / 6) - 40, y + 40 * Math.sin(moves / 6)];
+        handle.dispatchEvent(new PointerEvent("pointermove", { pointerId: 1, clientX, clientY }));  // the mouse is 1
+        requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+})"""
+_MOVES = 180
+
+
+def _dragged(page: "Page", step: Step) -> Iterator[FigureRow]:
+    """The figures of the step that is open, each by its first handle."""
+    for figure in page.locator(".live").all():
+        handle = figure.locator(".live-handle").first
+        handle.scroll_into_view_if_needed()
+        box = handle.bounding_box()
+        assert box is not None
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        gaps = [after - before for before, after in pairwise(figure.evaluate(_DRAG, [x, y, _MOVES]))]
+        page.mouse.up()
+        most = statistics.quantiles(gaps, n=20)[-1]
+        name = figure.get_attribute("data-figure") or ""
+        yield FigureRow(step.id, name, 1000.0 / statistics.fmean(gaps), statistics.median(gaps), most)
+
+
 def bench_play(project: Project, names: list[str], rounds: int, console: Console) -> int:
     """Measures, prints a table and writes build/bench/play.json."""
     if not project.has_reference:
         raise UsageError("bench play saves the reference's steps, which this kit does not have")
     with _both_parts():
         steps = choose(kit_steps(project), names)
-        folder = PlayPage(project, registry_of(None), paced(console.print)).make()
+        folder = PlayPage(project, registry_of(None), console.print).make()
     server = PlayServer(folder)
-    rows = []
+    rows, figures = [], []
     try:
         with _chromium() as browser:
             page, size, seconds = _visited(browser, server.address, steps[0])
@@ -125,6 +169,9 @@ def bench_play(project: Project, names: list[str], rounds: int, console: Console
                 first, *later = [_drawn(page, step, f"{text}// save {at}\n") for at in range(1 + rounds)]
                 rows.append(SaveRow(step.id, first, Spread.of(later)))
                 console.print(f"{step.id}: {first:.2f} s, then {rows[-1].later.median:.2f} s")
+                for figure in _dragged(page, step):
+                    figures.append(figure)
+                    console.print(f"  {figure.figure}: {figure.per_second:.0f} frames a second")
             memory = _memory(browser)
             version = f"Chromium {browser.version}"
     finally:
@@ -136,10 +183,15 @@ def bench_play(project: Project, names: list[str], rounds: int, console: Console
         first_seconds=seconds,
         memory_bytes=memory,
         rows=rows,
+        figures=figures,
     )
     table = terminal_table("from a save to the first picture in the page to work in", ("step", "first", "later"))
     for row in rows:
         table.add_row(row.step, f"{row.first:.2f} s", median(row.later, 2, " s"))
+    console.print(table)
+    table = terminal_table("live figures, dragged", ("step", "figure", "frames per second", "median", "95 %"))
+    for one in figures:
+        table.add_row(one.step, one.figure, f"{one.per_second:.0f}", f"{one.median:.0f} ms", f"{one.most:.0f} ms")
     console.print(table)
     console.print(f"first visit: {size / 1e6:.1f} MB, {seconds:.1f} s; memory: {memory / 1e9:.2f} GB")
     keep(project, numbers, console)

@@ -8,7 +8,8 @@ from rich.table import Table
 
 from tools.bench.model import Spread
 
-_LEFT = ("accel", "program", "scene", "step", "structure", "way")  # these columns stand left; numbers stand right
+# These columns stand left; numbers stand right.
+_LEFT = ("accel", "figure", "program", "scene", "step", "structure", "way")
 
 
 def _stands_left(heading: str) -> bool:

@@ -10,6 +10,7 @@ from raysteps.course.project import Project
 from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
 from tools.bench.docs import page_of, play_tables, replace_part, waits_tables
 from tools.bench.model import (
+    FigureRow,
     Machine,
     Numbers,
     PlayNumbers,
@@ -104,12 +105,14 @@ def test_the_page_to_work_in_says_how_long_people_wait() -> None:
         first_seconds=5.43,
         memory_bytes=930_000_000,
         rows=[SaveRow("06-octree", 2.5, Spread.of([1.0, 1.2, 1.1]))],
+        figures=[FigureRow("06-octree", "octree", 57.8, 16.7, 33.3)],
     )
-    words, table = play_tables(numbers).split("\n\n")
+    words, table, _, figures = play_tables(numbers).split("\n\n")
     assert "The first visit: 30.7 MB, and 5.4 s until its first picture; in the end the page takes 0.9 GB" in " ".join(
         words.split()
     )
     assert table.splitlines()[-1] == "| 06-octree | 2.50 | 1.10 (1.05 to 1.15) |"
+    assert figures.splitlines()[-1] == "| 06-octree | octree | 58 | 17 | 33 |"
 
 
 def test_ratios_are_those_of_the_same_scene() -> None:
