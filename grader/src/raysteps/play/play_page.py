@@ -314,7 +314,7 @@ class PlayPage:
         name = f"pictures/{step.number}/{case.name}.png"
         if self._project.has_reference:
             noisy = case.max_noise is not None
-            made = self._kit.picture(scene, with_samples(tuple(args), case.more_samples) if noisy else args)
+            made = self._noisy(case, scene)[0] if noisy else self._kit.picture(scene, args)
             picture = made.with_suffix(".png")
             if not picture.is_file():
                 write_png(parse_ppm(made.read_bytes()), picture)
@@ -335,13 +335,15 @@ class PlayPage:
             "maxShare": case.max_share,
         }
 
+    def _noisy(self, case: ImageCase, scene: Path) -> tuple[Path, Path]:
+        return self._kit.noisy_picture(scene, with_samples(case.args, case.more_samples))
+
     def _noise(self, step: Step, case: ImageCase, scene: Path, size: tuple[int, int]) -> dict[str, Any] | None:
         """What noise.js compares a noisy picture with."""
         if case.max_noise is None:
             return None
         if self._project.has_reference:
-            args = with_samples(case.args, case.more_samples)
-            parts = read_estimates(self._kit.estimates(scene, args).read_bytes()).in_parts()
+            parts = read_estimates(self._noisy(case, scene)[1].read_bytes()).in_parts()
         else:
             parts = stored_parts(reference_image_path(self._project, step, case))
         rows = np.concatenate([parts.mean, parts.variance], axis=2).reshape(-1, 6)

@@ -396,22 +396,24 @@ class WebKit:
         """A program of the live figures alone; every step is the model's."""
         return self._linked("figures", *self._model)
 
-    def _ran(self, words: Sequence[str], made: str, scene: Path | None = None, option: str = "-o") -> Path:
-        """The file that the reference's program makes, by that option."""
+    def _ran(self, words: Sequence[str], options: Mapping[str, str], scene: Path | None = None) -> dict[str, Path]:
+        """The files that one run of the reference's program makes, by their endings; `options` name them."""
         content = "" if scene is None else scene.read_text("utf-8")
-        target = self._kept(made, self._program.name, *words, content)
-        if not target.is_file():
+        targets = {made: self._kept(made, self._program.name, *words, content) for made in options}
+        if not all(target.is_file() for target in targets.values()):
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
                 (Path(folder) / "scene.nff").write_text(content, encoding="utf-8")
-                said = self._clang.program(self._program, [*words, option, f"{_WORK}/{made}"], {_WORK: Path(folder)})
+                named = [word for made, option in options.items() for word in (option, f"{_WORK}/{made}")]
+                said = self._clang.program(self._program, [*words, *named], {_WORK: Path(folder)})
                 if said.code != 0:
                     raise GraderFault(f"the reference fails in the page's program: {said.stderr.strip()}")
-                write_bytes(target, (Path(folder) / made).read_bytes())
-        return target
+                for made, target in targets.items():
+                    write_bytes(target, (Path(folder) / made).read_bytes())
+        return targets
 
     @cached_property
     def _outcomes(self) -> list[TestOutcome]:
-        cases = parse_report(self._ran(["test", "-r", "xml"], "xml").read_bytes())
+        cases = parse_report(self._ran(["test", "-r", "xml"], {"xml": "-o"})["xml"].read_bytes())
         if not cases or not all(case.passed for case in cases):
             failed = next((case.name for case in cases or () if not case.passed), "all")
             raise GraderFault(f"the reference fails its own tests in the page's program: {failed}")
@@ -424,12 +426,15 @@ class WebKit:
         own = [case for case in self._outcomes if step.id in case.tags]
         return {case.name: tested_functions(step, case.name, case.tags) for case in own}
 
+    def _drawn(self, scene: Path, args: Sequence[str], options: Mapping[str, str]) -> dict[str, Path]:
+        words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet"]
+        return self._ran(words, options, scene)
+
     def picture(self, scene: Path, args: Sequence[str]) -> Path:
         """The reference's, as raytrace writes it."""
-        words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet"]
-        return self._ran(words, "ppm", scene)
+        return self._drawn(scene, args, {"ppm": "-o"})["ppm"]
 
-    def estimates(self, scene: Path, args: Sequence[str]) -> Path:
-        """Of the same picture, with `--estimates`."""
-        words = ["raytrace", f"{_WORK}/scene.nff", *args, "--threads", "1", "--quiet", "-o", f"{_WORK}/picture.ppm"]
-        return self._ran(words, "estimates", scene, "--estimates")
+    def noisy_picture(self, scene: Path, args: Sequence[str]) -> tuple[Path, Path]:
+        """Likewise, and its `--estimates`."""
+        made = self._drawn(scene, args, {"ppm": "-o", "estimates": "--estimates"})
+        return made["ppm"], made["estimates"]
