@@ -19,6 +19,10 @@ from tools.website.live_figures import check_live, in_one_script, make_live_figu
 
 pytestmark = [pytest.mark.xdist_group("play")]
 _DRAWN = ".live[data-state=drawn]"
+_IS_ABOVE_ALL = """handle => {
+    const { x, y, width, height } = handle.getBoundingClientRect();
+    return handle.contains(document.elementFromPoint(x + width / 2, y + height / 2));
+}"""
 
 
 def test_a_module_and_what_it_imports_become_one_script() -> None:
@@ -120,6 +124,8 @@ def test_everybody_can_use_them(
     assert_no_sideways_scrolling(page)
     words = page.locator(".live .live-says").first
     before = words.inner_text()
+    page.locator(".live svg").first.evaluate("one => one.scrollIntoView({ behavior: 'instant' })")
+    assert page.locator(".live-handle").first.evaluate(_IS_ABOVE_ALL)
     page.locator(".live-handle").first.press("ArrowRight")
     page.wait_for_function("before => document.querySelector('.live-says').textContent !== before", arg=before)
     page.emulate_media(media="print")

@@ -263,7 +263,7 @@ class Figure {
     node.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       const nearest = this.#nearest(view, event);
-      nearest.focus();
+      nearest.focus({ preventScroll: true }); // it would move away below the pointer
       nearest.setPointerCapture(event.pointerId);
       this.#isDragged = true;
     });
