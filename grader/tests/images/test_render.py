@@ -130,10 +130,10 @@ def _part(kit: BuiltKit, step: Step, scene: Path, gate: Gate, made: Rendered) ->
     return part_of_its_pixels(kit, step, scene, gate, made)
 
 
-def test_a_graded_scene_stands_alone(kit: BuiltKit, tmp_path: Path) -> None:
+def test_a_graded_scene_stands_alone(whole_kit: BuiltKit, tmp_path: Path) -> None:
     """A student's program gets nothing that lies beside it, and must not lose by that."""
     scene = tmp_path / "scene.pbrt"
     scene.write_text('WorldBegin\nInclude "more.pbrt"\n', encoding="utf-8")
     (tmp_path / "more.pbrt").write_text('Shape "sphere"\n', encoding="utf-8")
     with pytest.raises(GraderFault, match=r"scene\.pbrt, with no other file beside it: .*more\.pbrt: expected a file"):
-        reference_picture(kit, scene, ("--step", "11", "--size", "8x6"))
+        reference_picture(whole_kit, scene, ("--step", "11", "--size", "8x6"))

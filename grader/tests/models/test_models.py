@@ -260,7 +260,7 @@ def test_without_textures_a_scene_is_one_file(obj: Path) -> None:
     assert not list(obj.parent.glob("*.png"))
 
 
-def test_with_textures_inside_a_scene_is_one_file_and_looks_the_same(kit: BuiltKit, obj: Path) -> None:
+def test_with_textures_inside_a_scene_is_one_file_and_looks_the_same(whole_kit: BuiltKit, obj: Path) -> None:
     (obj.parent / "two.mtl").write_text(_MTL.replace("Ke 3 2 1\n", ""), encoding="utf-8")
     parts = read_model(obj)[0]
     parts += [replace(part, name="once more") for part in parts if part.material.texture is not None]
@@ -270,8 +270,8 @@ def test_with_textures_inside_a_scene_is_one_file_and_looks_the_same(kit: BuiltK
     write_pbrt(parts, alone, textures="inside")
     assert [path.name for path in alone.parent.iterdir()] == ["inside.pbrt"]
     assert alone.read_text(encoding="utf-8").count("data:image/png;base64,") == 1, "one that two parts have stands once"
-    beside = _drawn(kit.of_all_parts(), obj.with_name("beside.pbrt"), 11)
-    assert (_drawn(kit.of_all_parts(), alone, 11) == beside).all()
+    beside = _drawn(whole_kit, obj.with_name("beside.pbrt"), 11)
+    assert (_drawn(whole_kit, alone, 11) == beside).all()
     assert beside.std() > 20
 
 
