@@ -33,9 +33,9 @@ def test_an_ordinary_source_stays_as_it_is() -> None:
         (codecs.BOM_UTF32_BE + TEXT.encode("utf-32-be"), "UTF-32"),
         (TEXT.encode("utf-16-le"), "UTF-16"),
         (TEXT.encode("utf-16-be"), "UTF-16"),
-        (TEXT.replace("\n", "\r\n").encode(), "with Windows line ends"),
-        (TEXT.replace("\n", "\r").encode(), "with the line ends of an old Macintosh"),
-        (TEXT.replace("\n", "\r\n").encode("utf-16"), "UTF-16 and with Windows line ends"),
+        (TEXT.replace("\n", "\r\n").encode(), "saved with Windows line ends"),
+        (TEXT.replace("\n", "\r").encode(), "saved with the line ends of an old Macintosh"),
+        (TEXT.replace("\n", "\r\n").encode("utf-16"), "UTF-16 and saved with Windows line ends"),
         (TEXT.encode("latin-1"), "not UTF-8 but in an older encoding"),
     ],
 )

@@ -92,9 +92,9 @@ def decode(data: bytes) -> Decoded:
     if _PAGE.match(data):
         raise RejectedFile(f"is a web page, not a source, and was not taken; {_ADVICE}.")
     text, oddities = _text(data)
-    ends = "with Windows line ends" if "\r\n" in text else ""
+    ends = "saved with Windows line ends" if "\r\n" in text else ""
     text = text.replace("\r\n", "\n")
     if "\r" in text:
-        ends, text = "with the line ends of an old Macintosh", text.replace("\r", "\n")
+        ends, text = "saved with the line ends of an old Macintosh", text.replace("\r", "\n")
     _check(text)
     return Decoded(text.encode(), (*oddities, *([ends] if ends else [])))
