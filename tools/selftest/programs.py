@@ -245,10 +245,6 @@ def _right_in_wine(native: BuildTree, tree: BuildTree, tests: list[str]) -> Repo
     return Report("failed", "\n".join(failed)) if failed else Report("passed")
 
 
-def _exe(tree: BuildTree, name: str) -> Path:
-    return tree.bin / f"{name}.exe"
-
-
 @contextmanager
 def _wine_running(tree: BuildTree) -> Iterator[None]:
     """With a Windows of its own in the build folder, whose server stays until the end of it. By itself the server ends

@@ -41,6 +41,17 @@ def _score(mistake: Mapping[int, ObservedAnswers], mine: Mapping[int, ObservedAn
     return agreement(_questions(), mistake, mine).score
 
 
+def test_answers_by_chance_are_alike_where_they_are_wrong_in_the_same_way() -> None:
+    """Whoever turns a frame otherwise has other numbers for one mistake."""
+    function = functions_of("12")["unit_disk"]
+    case = Case("unit_disk", "a few points", {})
+    said = ObservedAnswers("1 2 3", "a point lies outside of the disk")
+    other = ObservedAnswers("7 8 9", "a point lies outside of the disk")
+    assert 0.7 < answer_similarity(function, case, "0 0 0", said, other) < 1
+    another = ObservedAnswers("7 8 9", "too many points lie near the rim")
+    assert answer_similarity(function, case, "0 0 0", said, another) == 0
+
+
 def test_the_same_numbers_are_the_same_answer() -> None:
     questions = _questions()
     function, case = questions.function, questions.cases[0]

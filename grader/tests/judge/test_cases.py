@@ -1,6 +1,7 @@
 """The hidden cases: repeatable, float32-exact, complete."""
 
 import struct
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.project import Project
+from raysteps.judge.answers import Answer
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32, text, vec_of
@@ -117,3 +119,13 @@ def test_every_grade_asks_for_normals_with_three_parts_that_are_the_same(
     for seed in ("diagnosis", *range(1, 21)):
         normals = [vec_of(case.inputs, "normal") for case in make_cases(step, plan, seed)]
         assert sum(len(set(normal)) == 1 for normal in normals) >= 2, seed
+
+
+def test_of_an_answer_by_chance_the_reference_has_one_of_many() -> None:
+    sure = Answer(
+        lambda tokens: tokens.real(), str, lambda _inputs, expected, actual: "" if expected == actual else "off"
+    )
+    for answer, expected in ((sure, "1.5"), (replace(sure, is_drawn=True), "for instance 1.5")):
+        reference = answer.measured("f", {}, "1.5")
+        verdict = answer.verdict({}, reference, "2.5")
+        assert (verdict.problem, verdict.expected, verdict.actual) == ("off", expected, "2.5")

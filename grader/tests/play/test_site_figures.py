@@ -45,13 +45,16 @@ def test_a_students_kit_has_none(tmp_path: Path) -> None:
         check_live(Project(tmp_path))
 
 
-def test_what_they_lack_is_said_before_anything_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_they_lack_is_said_before_anything_is_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     def refuse(*_: object) -> None:
         raise UsageError("no network")
 
     monkeypatch.setattr(command, "make_live_figures", refuse)
     monkeypatch.setattr(command, "dead_links", lambda *_: pytest.fail("the documents were read before"))
     assert main(["docs", "--live", "--out", str(tmp_path / "out")]) == 2
+    assert "no network" in "".join(capsys.readouterr())
     assert list(tmp_path.iterdir()) == []
 
 

@@ -32,7 +32,7 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
     project = small_project(tmp_path)
     kit = _Kit(fingerprint="one", steps=read_steps(project), has_reference=False, project=project)
 
-    def look_through(_kit: Any, _submission: Any, chosen: Sequence[Step], *_: Any) -> Results:
+    def look_through(_kit: Any, _submission: Any, chosen: Sequence[Step], *_: Any, **__: Any) -> Results:
         return Results.of("steps", [checked(step, "passed", 6.5).steps[0] for step in chosen], kit=kit.fingerprint)
 
     monkeypatch.setattr(check, "build_kit", lambda *_: kit)
@@ -77,7 +77,7 @@ def test_another_kit_begins_anew(course: Project, monkeypatch: pytest.MonkeyPatc
 def test_what_was_found_before_outlives_a_check_that_fails(course: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     _check(course, 1, 2)
 
-    def fail(*_: Any) -> Results:
+    def fail(*_: Any, **__: Any) -> Results:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(check, "_look_through", fail)
@@ -93,7 +93,13 @@ def test_what_is_found_is_there_before_its_mistakes_have_names(
     told: list[bool] = []
 
     def find_and_learn(
-        kit: Any, _submission: Any, chosen: Sequence[Step], _out: Path, _say: Any, tell: Callable[[Results], None]
+        kit: Any,
+        _submission: Any,
+        chosen: Sequence[Step],
+        _out: Path,
+        _say: Any,
+        tell: Callable[[Results], None],
+        **_: Any,
     ) -> Results:
         tell(Results.of("steps", [checked(step, "partial", 3).steps[0] for step in chosen], kit=kit.fingerprint))
         raise KeyboardInterrupt

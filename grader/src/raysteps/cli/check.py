@@ -34,9 +34,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)
-    if told:
+    if told and any(result.diagnoses for result in checked.results.steps):
         print_diagnoses(console, checked.results)
-    else:
+    elif not told:
         tell(checked)
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:

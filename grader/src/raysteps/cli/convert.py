@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         required=True,
         metavar="SCENE",
-        help="SCENE.pbrt for part two, with the textures beside it; SCENE.nff for part one",
+        help="SCENE.pbrt for part two, SCENE.nff for part one, which has mean colours for textures",
     )
     parser.add_argument("--up", choices=["y", "z"], default="y", help="which way is up in the model (y)")
     parser.add_argument(

@@ -334,14 +334,14 @@ def grade_submission(
     *,
     jobs: int = 1,
     course: str = "",
-    tell: Callable[[Results], None] = lambda results: None,
+    tell: Callable[[Results], None] | None = None,
     name_crash: Callable[[Sequence[StepResult]], None] = lambda found: None,
 ) -> Results:
     """Writes out/results.json, without what `settings.feedback` withholds, and out/pictures/; returns everything. What
     goes wrong in a step costs that step only; where it was the grader that failed in one, GraderFault says so when all
     is written. So many `jobs` are done at a time; that changes a grade only where a step is near its time limit.
     `course` is the name that results.json tells. `name_crash` may add to messages where a test crashed. Where known
-    mistakes have to be learned, the results are written and `tell` gets them before: nobody waits for names."""
+    mistakes have to be learned, the results are written before, or `tell` gets them: nobody waits for names."""
     start = time.monotonic()
     together = submission_seconds(settings.limits)
     counted, apart = AccountingSandbox(sandbox, together), AccountingSandbox(sandbox, _APART * together)
@@ -365,9 +365,8 @@ def grade_submission(
             timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds + apart.cpu_seconds, 2))
             results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
             results.course = course
-            if any(grader.has_to_learn for grader in graders):
-                _keep(results, settings, out)
-                tell(results)
+            if any(grader.has_to_learn for grader in graders) and not any(grader.fault for grader in graders):
+                tell(results) if tell is not None else _keep(results, settings, out)
             list(pool.map(HiddenStepGrader.explain, graders))
     _keep(results, settings, out)
     faults = [grader.fault for grader in graders if grader.fault]

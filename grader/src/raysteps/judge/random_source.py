@@ -89,8 +89,8 @@ class RandomSource:
         return x, y, z
 
     def diagonal(self) -> Vector:
-        """Between three axes, as near to one as to the others; more than half of them with three parts that are the
-        same, which have nothing across when they are moved round."""
+        """Between three axes, as near to one as to the others; more than half of them with three equal parts, whose
+        cross product with themselves, parts moved round, is zero."""
         side = self.sign() * f32(math.sqrt(1 / 3))
         if self.chance(0.5):
             return side, side, side

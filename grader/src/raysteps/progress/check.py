@@ -43,11 +43,13 @@ def _look_through(
     chosen: list[Step],
     out: Path,
     say: ProgressCallback,
-    tell: Callable[[Results], None] | None,
+    tell: Callable[[Results], None],
+    *,
+    draws_large: bool,
 ) -> Results:
     jobs = os.cpu_count() or 1
     if not kit.has_reference:
-        return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say, tell)
+        return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say, tell if draws_large else None)
     from raysteps.grading.pipeline import (
         grade_submission,  # a students' kit has neither the judge nor what belongs to it
     )
@@ -55,9 +57,7 @@ def _look_through(
 
     settings = Settings(only=tuple(step.id for step in chosen))
     crash = partial(name_crash, kit, submission, LimitsOnly(), say)
-    return grade_submission(
-        kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=tell or (lambda _: None), name_crash=crash
-    )
+    return grade_submission(kit, submission, settings, LimitsOnly(), out, say, jobs=jobs, tell=tell, name_crash=crash)
 
 
 def _with_steps(results: Results, steps: Sequence[StepResult]) -> Results:
@@ -108,8 +108,12 @@ def check_steps(
             page = try_student_page(out, kit.steps, say, own_progress(project, out, found))
             return CheckResult(kit, results, page, next_of(found))
 
-        first = None if tell is None else lambda results: tell(keep(results))
-        return keep(_look_through(kit, submission, chosen, out, say, first))
+        def first(results: Results) -> None:
+            found = keep(results)
+            if tell is not None:
+                tell(found)
+
+        return keep(_look_through(kit, submission, chosen, out, say, first, draws_large=tell is not None))
 
 
 def own_progress(project: Project, folder: Path, found: Sequence[Standing]) -> OwnProgress:

@@ -177,8 +177,11 @@ function answer(data) {
 }
 
 let queue = Promise.resolve();
+let newest = 0;
 addEventListener("message", ({ data }) => {
+  const turn = ++newest;
+  const isNeeded = () => !data.ahead || turn === newest; // what came after it includes something else, or is a build
   queue = queue
-    .then(() => answer(data))
+    .then(() => (isNeeded() ? answer(data) : null))
     .catch((error) => postMessage({ job: data.job, failed: String(error?.message ?? error) }));
 });

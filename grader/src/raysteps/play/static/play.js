@@ -198,8 +198,10 @@ class Page {
     clearTimeout(this.#keepTimer);
     element("play-kept").textContent = "";
     this.#keepTimer = setTimeout(() => {
-      this.#compiler.lookAhead(this.#step.number, this.#editor.text);
       this.#keep();
+      if (this.#step) {
+        this.#compiler.lookAhead(this.#step.number, this.#editor.text);
+      }
     }, KEEP_AFTER);
   }
 

@@ -66,7 +66,7 @@ function deskPicture(image) {
     ),
   );
   const words = image.message || (image.facts.length ? `${image.facts.join("; ")}.` : "");
-  const title = make("p", {}, make("strong", {}, `${image.passed ? "✓" : "✗"} ${image.name}`));
+  const title = make("p", {}, make("strong", {}, `${image.passed ? "✓" : image.waits ? "…" : "✗"} ${image.name}`));
   return make(
     "div",
     { class: "desk-picture" },
