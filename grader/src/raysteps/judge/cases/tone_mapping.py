@@ -58,8 +58,7 @@ _NO_COLOR = (-1.0, -0.5, -100.0, -math.inf, math.nan, -0.0)
 
 def _channel(draw: RandomSource) -> float:
     """Well away from the border between two bytes."""
-    byte = draw.whole(1, 254) if draw.chance(0.75) else (1, 2, 253, 254)[draw.whole(0, 3)]
-    return f32((byte + draw.real(-0.4, 0.4)) / 255)
+    return f32((draw.whole(1, 254) + draw.real(-0.4, 0.4)) / 255)
 
 
 def _byte(value: float) -> Inputs:
@@ -71,8 +70,9 @@ def _simple_byte(draw: RandomSource) -> Inputs:
 
 
 def _rounded_up(draw: RandomSource) -> Inputs:
-    """Nearer to the next byte: cutting off gives one too few."""
-    return _byte(f32((draw.whole(1, 254) - draw.real(0.1, 0.4)) / 255))
+    """Nearer to the next byte: cutting off gives one too few. A quarter lie at one of the ends."""
+    byte = draw.whole(1, 254) if draw.chance(0.75) else (1, 2, 253, 254)[draw.whole(0, 3)]
+    return _byte(f32((byte - draw.real(0.1, 0.4)) / 255))
 
 
 def _odd_byte(draw: RandomSource) -> Inputs:
