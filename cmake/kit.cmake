@@ -130,7 +130,7 @@ file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/kit.json" CONTENT "{
 }
 ")
 
-# All that kit.json names: `kit` for any step, and `kit-NN` for what only the grades of that step and of later ones need.
+# All that kit.json names: `kit` for any step, `kit-NN` for what only the grades of that step and of later ones need.
 add_custom_target(kit)
 add_dependencies(kit raysteps-core raysteps-io raysteps-render raysteps-testing raytrace-app)
 foreach(part worker-app raysteps-absent ${RAYSTEPS_REMOTE_TARGETS})

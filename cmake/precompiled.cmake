@@ -1,6 +1,6 @@
 # Headers that nearly every source reads are compiled once for all of them; they take 200 MB. For the kit's own sources
-# alone: what a student's files are compiled with stays plain, and so does what clang-tidy reads, which
-# shows a missing #include.
+# alone: what a student's files are compiled with stays plain, and so does what clang-tidy reads, which shows a missing
+# #include.
 set(precompile OFF)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND RAYSTEPS_MODEL STREQUAL "reference" AND NOT CMAKE_HOST_WIN32)
     set(precompile ON)

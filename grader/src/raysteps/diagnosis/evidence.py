@@ -238,11 +238,11 @@ def answer_similarity(
         return 1.0 if same_problem else 0.0
     if mistake.line.startswith("threw") or mine.line.startswith("threw"):
         return 1.0 if same_problem else 0.0
+    if function.answer.is_drawn:  # what is wrong with it does not hang on another answer
+        return _SAME_WORDS_OF_CHANCE if same_problem else 0.0
     if _fits(function, case, mistake.line, mine.line):
         return 1.0
     if not same_problem:
         return 0.0
-    if function.answer.is_drawn:
-        return _SAME_WORDS_OF_CHANCE
     agreement = _agreement(right, mistake.line, mine.line)
     return agreement if agreement >= _MOSTLY else _WORDS_ONLY

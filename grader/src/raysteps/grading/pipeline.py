@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from raysteps.common.documents import convert, plain
-from raysteps.common.errors import GraderFault, RaystepsError, reason, reason_and_place
+from raysteps.common.errors import GraderFault, RaystepsError, reason_and_place
 from raysteps.common.files import write_bytes
 from raysteps.common.text import in_seconds, join_and, printable, shorten
 from raysteps.course.manifest import Step
@@ -317,13 +317,6 @@ def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
 
 
-def _keep(results: Results, settings: Settings, out: Path) -> None:
-    try:
-        write_results(withhold(results, settings.feedback), out)
-    except OSError as error:
-        raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
-
-
 def grade_submission(
     kit: BuiltKit,
     submission: Submission,
@@ -366,9 +359,12 @@ def grade_submission(
             results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
             results.course = course
             if any(grader.has_to_learn for grader in graders) and not any(grader.fault for grader in graders):
-                tell(results) if tell is not None else _keep(results, settings, out)
+                if tell is None:
+                    write_results(withhold(results, settings.feedback), out)
+                else:
+                    tell(results)
             list(pool.map(HiddenStepGrader.explain, graders))
-    _keep(results, settings, out)
+    write_results(withhold(results, settings.feedback), out)
     faults = [grader.fault for grader in graders if grader.fault]
     if faults:
         raise GraderFault(

@@ -7,7 +7,7 @@ from datetime import datetime
 from functools import partial
 from pathlib import Path
 
-from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -96,10 +96,7 @@ def check_steps(
         def keep(results: Results) -> CheckResult:
             nonlocal noted
             whole = _with_steps(results, [*kept, *results.steps]) if kept else results
-            try:
-                write_results(whole, out)
-            except OSError as error:
-                raise GraderFault(f"{out}: the results cannot be written: {reason(error)}") from error
+            write_results(whole, out)
             if not noted:
                 remember(project, results, submission.sources)
                 note_attempt(out, whole, [step.id for step in chosen], datetime.now().astimezone())

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from raysteps.common.documents import Malformed, checked, parse, plain
-from raysteps.common.errors import UsageError, reason
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.results.model import Results
 
@@ -15,10 +15,13 @@ def validate(results: Results) -> None:
 
 
 def write_results(results: Results, folder: Path) -> Path:
-    """Checks and writes FOLDER/results.json."""
+    """Checks and writes FOLDER/results.json; GraderFault says why it cannot be written."""
     validate(results)
     path = folder / "results.json"
-    write_json(path, plain(results))
+    try:
+        write_json(path, plain(results))
+    except OSError as error:
+        raise GraderFault(f"{folder}: the results cannot be written: {reason(error)}") from error
     return path
 
 

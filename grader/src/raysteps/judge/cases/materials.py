@@ -477,8 +477,8 @@ def _astray(is_mirrored: Mask, normals: Numbers) -> str:
 
 
 def _odds_problem(is_mirrored: Mask, shares: Numbers, view: Numbers, normals: Numbers, nothing: int) -> str:
-    """The number that decides may be that which chose the microfacet: then those that face the view,
-    lie flat, or lean to one side of it are mirrored too often. What a view sees is the same on its two sides."""
+    """The number that decides may be that which chose the microfacet: then those that face the view, lie flat, or lean
+    to one side of it are mirrored too often. What a view sees is the same on its two sides."""
     for measure in (_dots(view, normals), normals[:, 2]):
         more = measure > np.median(measure)
         if any(_share_problem(is_mirrored[half], shares[half], nothing) for half in (more, ~more)):
