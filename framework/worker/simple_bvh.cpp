@@ -23,7 +23,8 @@ Box box_around(Place begin, Place end) {
     return box;
 }
 
-/// Fills in node number `at`, and what is below it.
+/// Fills in node number `at`, and what is below it. The first child holds what comes later in the list: a search that
+/// takes the order of the leaves for the order of the list is seen.
 void halve(Bvh& bvh, std::size_t at, Place begin, Place end, int axis, float padding) {
     const Box box = box_around(begin, end);
     const auto first_surface = static_cast<std::uint32_t>(begin - bvh.surfaces.begin());
@@ -42,8 +43,8 @@ void halve(Bvh& bvh, std::size_t at, Place begin, Place end, int axis, float pad
     bvh.nodes[at].count = 0;
     bvh.nodes.resize(first + 2);
     const auto middle = begin + (end - begin) / 2;
-    halve(bvh, first, begin, middle, (axis + 1) % 3, padding);
-    halve(bvh, first + 1, middle, end, (axis + 1) % 3, padding);
+    halve(bvh, first, middle, end, (axis + 1) % 3, padding);
+    halve(bvh, first + 1, begin, middle, (axis + 1) % 3, padding);
 }
 
 }  // namespace
