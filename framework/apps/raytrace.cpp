@@ -81,6 +81,18 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
                   path_of(options.output));
 }
 
+/// Nothing but lamps that the chosen step does not know: the picture is right, and black.
+void say_why_it_is_black(const Scene& scene, const RaytraceOptions& options) {
+    const bool shows_light = options.view == View::color && options.step >= 3;
+    if (shows_light && !options.quiet && scene.lights.empty() && !scene.area_lights.empty() &&
+        !has_area_lights(options.step)) {
+        std::fputs(
+            "raysteps render: the lamps of this scene are areas, which shine from step 12 on only: without them the "
+            "picture is black\n",
+            stderr);
+    }
+}
+
 void run(const RaytraceOptions& options) {
     if (options.threads > 0) {
         set_default_threads(options.threads);
@@ -93,6 +105,7 @@ void run(const RaytraceOptions& options) {
         print_spd_counts(scene, options);
     }
     if (!options.output.empty()) {
+        say_why_it_is_black(scene, options);
         render_picture(scene, options);
     }
 }

@@ -339,7 +339,7 @@ private:
         if (!bytes) {
             scanner.fail(token, "a file, or `data:image/png;base64,` and a picture in base64", raysteps::quoted(file));
         }
-        return read_texture(*bytes, raysteps::quoted(file), linear);
+        return read_texture(*bytes, scanner.place_of(token) + ": " + raysteps::quoted(file), linear);
     }
 
     Material read_material(PbrtScanner& scanner, const Token& token, const std::string& kind) {

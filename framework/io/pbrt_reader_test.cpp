@@ -117,8 +117,9 @@ TEST_CASE("a picture may stand in the scene itself", "[pbrt]") {
         "bad.pbrt:1:73: expected a file, or `data:image/png;base64,` and a picture in base64, found ";
     CHECK(error_of(scene_of("data:image/png;base64,iVBOR!")) == none + "`data:image/png;base6...`");
     CHECK(error_of(scene_of("data:image/png,iVBOR")) == none + "`data:image/png,iVBOR`");
+    CHECK(error_of(scene_of("data:image/png;base64," + png.substr(0, 65))) == none + "`data:image/png;base6...`");
     CHECK(error_of(scene_of("data:image/png;base64," + png.substr(0, 64))) ==
-          "`data:image/png;base6...`: expected a whole picture, found one that is damaged");
+          "bad.pbrt:1:73: `data:image/png;base6...`: expected a whole picture, found one that is damaged");
 }
 
 TEST_CASE("meshes without normals get flat ones", "[pbrt]") {

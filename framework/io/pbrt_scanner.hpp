@@ -39,6 +39,9 @@ public:
     /// All that follow, in any order.
     std::vector<PbrtParameter> parameters();
 
+    /// As messages begin: file:line:column.
+    [[nodiscard]] std::string place_of(const Token& token) const;
+
     [[noreturn]] void fail(const Token& token, std::string_view expected) const;
     [[noreturn]] void fail(const Token& token, std::string_view expected, std::string_view found) const;
 

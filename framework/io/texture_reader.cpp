@@ -110,6 +110,9 @@ std::optional<std::string> bytes_of_data_uri(std::string_view uri) {
         return std::nullopt;
     }
     const std::string_view text = uri.substr(mark + k_mark.size());
+    if (text.size() % 4 != 0) {
+        return std::nullopt;  // it was cut off: three bytes are four digits, and `=` fills the last four
+    }
     std::string bytes;
     unsigned bits = 0;
     unsigned known = 0;

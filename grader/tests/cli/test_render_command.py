@@ -318,6 +318,25 @@ def test_the_renderer_speaks_of_the_command_that_a_person_types(
     assert said in outcome.stdout + outcome.stderr
 
 
+@pytest.mark.parametrize(
+    ("scene", "step", "view", "is_black"),
+    [
+        ("lessons/cornell.pbrt", "9", "color", True),
+        ("lessons/cornell.pbrt", "12", "color", False),
+        ("lessons/cornell.pbrt", "9", "normals", False),
+        ("lessons/three-spheres.nff", "9", "color", False),
+    ],
+)
+def test_lamps_that_a_step_does_not_know_are_said(
+    kit: BuiltKit, project: Project, tmp_path: Path, scene: str, step: str, view: str, is_black: bool
+) -> None:
+    words: list[str | Path] = [kit.reference("raytrace"), project.scenes / scene, "--size", "8x8", "--step", step]
+    outcome = run([*words, "--view", view, "-o", tmp_path / "a.ppm"], seconds=60)
+    assert outcome.code == 0
+    assert ("which shine from step 12 on only" in outcome.stderr) == is_black
+    assert bool(read_ppm(tmp_path / "a.ppm").any()) == (not is_black)
+
+
 def test_a_png_has_the_pixels_of_the_ppm(kit: BuiltKit, project: Project, tmp_path: Path) -> None:
     scene = project.scenes / "lessons" / "three-spheres.nff"
     for name in ("a.ppm", "a.png"):

@@ -301,6 +301,13 @@ def test_a_scene_to_write_has_a_name_that_says_what_it_is(project: Project, obj:
         run(project, arguments, Console())
 
 
+def test_a_scene_that_has_no_textures_takes_no_word_about_them(project: Project, obj: Path) -> None:
+    words = ["convert", str(obj), "-o", str(obj.with_suffix(".nff")), "--textures", "inside"]
+    with pytest.raises(UsageError, match=r"--textures inside: expected SCENE\.pbrt; .+\.nff has mean colours"):
+        run(project, new_parser(project, "convert").parse_args(words), Console())
+    assert run(project, new_parser(project, "convert").parse_args(words[:4]), Console()) == 0
+
+
 @pytest.mark.parametrize(("parts", "ending"), [("[1]", ".nff"), ("[1, 2]", ".pbrt")])
 def test_other_commands_take_a_model_in_place_of_a_scene(
     project: Project, obj: Path, monkeypatch: pytest.MonkeyPatch, parts: str, ending: str

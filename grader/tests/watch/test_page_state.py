@@ -57,6 +57,14 @@ def test_the_state_holds_what_went_wrong(steps: list[Step], tmp_path: Path) -> N
     assert json.loads(json.dumps(state)) == state
 
 
+def test_a_picture_that_waits_is_not_called_wrong(steps: list[Step], tmp_path: Path) -> None:
+    view = _view(steps[0], "// wrong", tmp_path)
+    assert view.result is not None
+    view.result.images[0].waits_for = "view_frame"
+    state: Any = state_of(view)
+    assert [picture["waits"] for picture in state["pictures"]] == [True]
+
+
 def test_pictures_that_are_gone_are_left_out(steps: list[Step], tmp_path: Path) -> None:
     view = _view(steps[0], "// wrong", tmp_path)
     (tmp_path / "mine.png").unlink()

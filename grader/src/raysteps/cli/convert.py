@@ -33,9 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--textures",
         choices=["beside", "inside", "none"],
-        default="beside",
-        help="files beside the scene (beside), a part of its text, as one that is graded needs it (inside), or mean "
-        "colours only (none)",
+        help="of SCENE.pbrt: files beside the scene (beside, the usual), a part of its text, as one that is graded "
+        "needs it (inside), or mean colours only (none)",
     )
 
 
@@ -58,7 +57,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     out: Path = arguments.out
     if out.suffix.lower() not in (".pbrt", ".nff") or out.is_dir():
         raise UsageError(f"{out}: expected the name of a scene to write, .pbrt or .nff")
-    for note in _write(arguments.model, out, z_up=arguments.up == "z", textures=arguments.textures):
+    textures: TexturePlace | None = arguments.textures
+    if not is_of_part_two(out) and textures is not None:
+        raise UsageError(f"--textures {textures}: expected SCENE.pbrt; {out.name} has mean colours for textures")
+    for note in _write(arguments.model, out, z_up=arguments.up == "z", textures=textures or "beside"):
         console.print(escape(note), highlight=False)
     console.print(f"Scene: {escape(os.fspath(out))}", soft_wrap=True, highlight=False)
     return 0

@@ -123,6 +123,7 @@ def _picture(view: StepView, image: ImageResult) -> State:
         "name": image.name,
         "scene": image.scene,
         "passed": image.passed,
+        "waits": bool(image.waits_for),
         "message": image.message,
         "reference": _uri(view.out, image.reference),
         "mine": _uri(view.out, image.mine),

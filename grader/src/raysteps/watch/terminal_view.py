@@ -127,7 +127,7 @@ class TerminalView:
 
     def _pictures(self, result: StepResult) -> None:
         for image in result.images:
-            if not image.passed:
+            if not image.passed and not image.waits_for:
                 self.line(f"  picture  {image.name}: {image.message}", "red")
 
     def _hidden(self, missed: Sequence[HiddenResult]) -> None:

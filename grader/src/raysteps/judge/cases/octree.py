@@ -4,7 +4,7 @@ from raysteps.common.vectors import Vector, add, cross, times, unit
 from raysteps.judge.answers import Answer
 from raysteps.judge.cases.octree_boxes import BOUNDS_OF, CLIP, SPLIT
 from raysteps.judge.cases.octree_searches import CLOSEST_HIT_IN_OCTREE, OCCLUDED_IN_OCTREE
-from raysteps.judge.cases.tree_scenes import built, large_and_small, small_scene, small_sphere
+from raysteps.judge.cases.tree_scenes import ball, built, large_and_small, small_scene, small_sphere
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.octrees import TREE
 from raysteps.judge.protocol import Box, Inputs, f32, rounded
@@ -230,6 +230,15 @@ def _on_walls(draw: RandomSource) -> Inputs:
     return built(tuple(Sphere((x, y, z), radius) for x in row for y in row for z in column))
 
 
+def _heap(draw: RandomSource) -> Inputs:
+    """Tiny things close together in a large scene: a tree that splits until lists are short goes down eight levels and
+    more to tell them apart."""
+    place = (draw.sign() * draw.real(20, 60), draw.sign() * draw.real(20, 60), draw.sign() * draw.real(20, 60))
+    others = (ball(draw, (0.0, 0.0, 0.0), 64, (64, 256)) for _ in range(draw.whole(6, 12)))
+    heap = (ball(draw, place, 0.5, (1, 4)) for _ in range(draw.whole(25, 40)))
+    return built((*others, *heap))
+
+
 BUILD_OCTREE = Function(
     "build_octree",
     TREE,
@@ -241,6 +250,7 @@ BUILD_OCTREE = Function(
         Group("all in one plane", _in_one_plane),
         Group("far from the centre of the world", _far_away),
         Group("on the walls between the boxes", _on_walls),
+        Group("a heap of tiny ones in a large scene", _heap),
         Group("a single surface", lambda d: built(small_scene(d, 1, 0) if d.chance(0.5) else small_scene(d, 0, 1))),
         Group("no surfaces", lambda d: built(())),
     ),

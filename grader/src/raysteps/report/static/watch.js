@@ -1,5 +1,16 @@
 "use strict";
 
+/** What is said beside a picture's name, and the class of it. */
+const signOf = ({ passed, waits, mine, message }) => {
+  if (passed) {
+    return [" ✓ right", "watch-good"];
+  }
+  if (waits) {
+    return [" … waits", ""];
+  }
+  return [mine ? " ✗ wrong" : message ? " ✗ missing" : "", "watch-bad"];
+};
+
 /** The pictures of a step; an element stays as long as its picture, so that nobody loses a zoom with a save. */
 class WatchPictures {
   #first = document.getElementById("watch-first");
@@ -29,14 +40,7 @@ class WatchPictures {
     const known = this.#shown.get(picture.name) ?? this.#add(picture, step);
     known.words.textContent =
       picture.message || (picture.passed ? "" : picture.mine ? "" : "This is what it shall look like.");
-    known.sign.textContent = picture.passed
-      ? " ✓ right"
-      : picture.mine
-        ? " ✗ wrong"
-        : picture.message
-          ? " ✗ missing"
-          : "";
-    known.sign.className = picture.passed ? "watch-good" : "watch-bad";
+    [known.sign.textContent, known.sign.className] = signOf(picture);
     const key = [picture.reference, picture.mine, picture.flip].join(" ");
     if (key === known.key) {
       return;
