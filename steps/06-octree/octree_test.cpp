@@ -77,24 +77,8 @@ void look_for(const Node& node, const Surface* surface, const glm::vec3& point, 
     }
 }
 
-/// Of all lists around the point; the lists of boxes above count, too.
-std::size_t listed_around(const Node& node, const glm::vec3& point) {
-    if (!node.box.contains(point)) {
-        return 0;
-    }
-    std::size_t listed = node.surfaces.size();
-    for (const Node& child : node.children) {
-        listed += listed_around(child, point);
-    }
-    return listed;
-}
-
-}  // namespace
-
-TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree]") {
-    Random random;
-    INFO(random);
-    const Scene scene = mixed_scene(random, 150, 10);
+/// Points of every surface: each must lie in a leaf that lists the surface, and in none that does not.
+void check_leaves(const Scene& scene, Random& random) {
     const Node root = build_octree(scene.surfaces());
     for (const Surface* surface : scene.surfaces()) {
         for (int i = 0; i < 20; ++i) {
@@ -112,6 +96,34 @@ TEST_CASE("build_octree: every surface is in the leaves that it runs through", "
             INFO("a leaf that the surface runs through does not have it in its list");
             REQUIRE(sight.in_every_leaf);
         }
+    }
+}
+
+/// Of all lists around the point; the lists of boxes above count, too.
+std::size_t listed_around(const Node& node, const glm::vec3& point) {
+    if (!node.box.contains(point)) {
+        return 0;
+    }
+    std::size_t listed = node.surfaces.size();
+    for (const Node& child : node.children) {
+        listed += listed_around(child, point);
+    }
+    return listed;
+}
+
+}  // namespace
+
+TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree]") {
+    Random random;
+    INFO(random);
+    SECTION("spheres and triangles") { check_leaves(mixed_scene(random, 150, 10), random); }
+    SECTION("a heap of tiny spheres in a large scene") {
+        Scene scene;
+        for (int i = 0; i < 40; ++i) {
+            scene.add(sphere_at(glm::vec3{50.0F, 40.0F, 30.0F} + random.point(0.5F), 0.05F));
+        }
+        scene.add(sphere_at({-60.0F, -60.0F, -60.0F}, 2.0F));
+        check_leaves(scene, random);
     }
 }
 
