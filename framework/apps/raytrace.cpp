@@ -83,9 +83,9 @@ void render_picture(const Scene& scene, const RaytraceOptions& options) {
 
 /// Nothing but lamps that the chosen step does not know: the picture is right, and black.
 void say_why_it_is_black(const Scene& scene, const RaytraceOptions& options) {
-    const bool shows_light = options.view == View::color && options.step >= 3;
-    if (shows_light && !options.quiet && scene.lights.empty() && !scene.area_lights.empty() &&
-        !has_area_lights(options.step)) {
+    const bool shows_light = options.step >= 3 && !options.map;
+    const bool is_lit = !scene.lights.empty() || scene.area_lights.empty() || scene.background != k_black;
+    if (shows_light && !is_lit && options.step < 12 && !options.quiet) {
         std::fputs(
             "raysteps render: the lamps of this scene are areas, which shine from step 12 on only: without them the "
             "picture is black\n",

@@ -337,7 +337,8 @@ private:
         }
         const std::optional<std::string> bytes = bytes_of_data_uri(file);
         if (!bytes) {
-            scanner.fail(token, "a file, or `data:image/png;base64,` and a picture in base64", raysteps::quoted(file));
+            scanner.fail(token, "a file, or `data:image/png;base64,` and a whole picture in padded base64",
+                         raysteps::quoted(file));
         }
         return read_texture(*bytes, scanner.place_of(token) + ": " + raysteps::quoted(file), linear);
     }

@@ -114,7 +114,7 @@ TEST_CASE("a picture may stand in the scene itself", "[pbrt]") {
     CHECK_THAT(texture.texel(0, 0), IsNear({1.0F, 0.0F, 0.0F}));
     CHECK_THAT(texture.texel(1, 0), IsNear({0.0F, 0.0F, 1.0F}));
     const std::string none =
-        "bad.pbrt:1:73: expected a file, or `data:image/png;base64,` and a picture in base64, found ";
+        "bad.pbrt:1:73: expected a file, or `data:image/png;base64,` and a whole picture in padded base64, found ";
     CHECK(error_of(scene_of("data:image/png;base64,iVBOR!")) == none + "`data:image/png;base6...`");
     CHECK(error_of(scene_of("data:image/png,iVBOR")) == none + "`data:image/png,iVBOR`");
     CHECK(error_of(scene_of("data:image/png;base64," + png.substr(0, 65))) == none + "`data:image/png;base6...`");

@@ -14,7 +14,8 @@ namespace raysteps {
 [[nodiscard]] Texture read_texture(const std::filesystem::path& path, bool linear);
 [[nodiscard]] Texture read_texture(std::string_view bytes, const std::string& name, bool linear);
 
-/// What stands in a name such as `data:image/png;base64,iVBORw0...` (RFC 2397 and 4648); nothing where it is none.
+/// What stands in a name such as `data:image/png;base64,iVBORw0...` (RFC 2397 and 4648, padded with `=`); nothing where
+/// it is none, or was cut off within four digits.
 [[nodiscard]] std::optional<std::string> bytes_of_data_uri(std::string_view uri);
 
 }  // namespace raysteps

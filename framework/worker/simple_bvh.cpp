@@ -23,8 +23,8 @@ Box box_around(Place begin, Place end) {
     return box;
 }
 
-/// Fills in node number `at`, and what is below it. The first child holds what comes later in the list: a search that
-/// takes the order of the leaves for the order of the list is seen.
+/// Fills in node number `at`, and what is below it. The first child holds what comes later in the list, so that the
+/// first leaf is not the one at the start of the list: who mixes these up is seen.
 void halve(Bvh& bvh, std::size_t at, Place begin, Place end, int axis, float padding) {
     const Box box = box_around(begin, end);
     const auto first_surface = static_cast<std::uint32_t>(begin - bvh.surfaces.begin());

@@ -77,14 +77,15 @@ void look_for(const Node& node, const Surface* surface, const glm::vec3& point, 
     }
 }
 
-/// Points of every surface: each must lie in a leaf that lists the surface, and in none that does not.
-void check_leaves(const Scene& scene, Random& random) {
+/// Points of every surface: each must lie in a leaf that lists the surface, and in none that does not. The points are
+/// found by rays that start at this distance.
+void check_leaves(const Scene& scene, Random& random, float distance) {
     const Node root = build_octree(scene.surfaces());
     for (const Surface* surface : scene.surfaces()) {
         for (int i = 0; i < 20; ++i) {
             // A random point of the surface: where a ray towards the middle of its bounds meets it.
             const Box box = surface->bounds();
-            const std::optional<HitRecord> hit = surface->hit(random.ray_towards(box.center(), 30.0F));
+            const std::optional<HitRecord> hit = surface->hit(random.ray_towards(box.center(), distance));
             if (!hit) {
                 continue;
             }
@@ -116,14 +117,14 @@ std::size_t listed_around(const Node& node, const glm::vec3& point) {
 TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree]") {
     Random random;
     INFO(random);
-    SECTION("spheres and triangles") { check_leaves(mixed_scene(random, 150, 10), random); }
+    SECTION("spheres and triangles") { check_leaves(mixed_scene(random, 150, 10), random, 30.0F); }
     SECTION("a heap of tiny spheres in a large scene") {
         Scene scene;
         for (int i = 0; i < 40; ++i) {
             scene.add(sphere_at(glm::vec3{50.0F, 40.0F, 30.0F} + random.point(0.5F), 0.05F));
         }
         scene.add(sphere_at({-60.0F, -60.0F, -60.0F}, 2.0F));
-        check_leaves(scene, random);
+        check_leaves(scene, random, 4.0F);
     }
 }
 

@@ -197,13 +197,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     ]
     marks = [_QUICK, *([_SLOW] if full else [])]
     name = f"pytest, with grading from end to end{f', {_SLOW_TESTS}' if full else ''}"
-    more = grade_checks(project, console, inputs, full=full)
-    more.append(Check(name, lambda: run_pytest(project, stamps, marks), beside=True))
+    checks += grade_checks(project, console, inputs, full=full)
+    checks.append(Check(name, lambda: run_pytest(project, stamps, marks), beside=True))
     if full:
-        more += [*fuzz_checks(project, inputs), *asan_checks(project, inputs), *windows_checks(project, tree, inputs)]
+        more = [*fuzz_checks(project, inputs), *asan_checks(project, inputs), *windows_checks(project, tree, inputs)]
         more += lint_checks(project, (TIDY,))
-    checks += sorted(more, key=lambda check: check.beside)  # grades and builds first, each on the whole machine
-    if not full:
+        checks += sorted(more, key=lambda check: check.beside)  # builds first, each on the whole machine
+    else:
         later = Report("skipped", "run: ./raysteps test --full")
         names = ("sanitizers and clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
         checks += [Check(name, lambda: later) for name in (_SLOW_TESTS, *names)]

@@ -319,19 +319,31 @@ def test_the_renderer_speaks_of_the_command_that_a_person_types(
 
 
 @pytest.mark.parametrize(
-    ("scene", "step", "view", "is_black"),
+    ("scene", "words", "is_black"),
     [
-        ("lessons/cornell.pbrt", "9", "color", True),
-        ("lessons/cornell.pbrt", "12", "color", False),
-        ("lessons/cornell.pbrt", "9", "normals", False),
-        ("lessons/three-spheres.nff", "9", "color", False),
+        ("lessons/cornell.pbrt", "--step 9", True),
+        ("lessons/cornell.pbrt", "--step 11", True),
+        ("lessons/cornell.pbrt", "--step 12", False),
+        ("lessons/cornell.pbrt", "--step 2 --view normals", False),
+        ("lessons/cornell.pbrt", "--step 9 --map tests", False),
+        ("lessons/metals.pbrt", "--step 9", False),  # it has a sky
+        ("lessons/three-spheres.nff", "--step 9", False),
     ],
 )
 def test_lamps_that_a_step_does_not_know_are_said(
-    kit: BuiltKit, project: Project, tmp_path: Path, scene: str, step: str, view: str, is_black: bool
+    whole_kit: BuiltKit, project: Project, tmp_path: Path, scene: str, words: str, is_black: bool
 ) -> None:
-    words: list[str | Path] = [kit.reference("raytrace"), project.scenes / scene, "--size", "8x8", "--step", step]
-    outcome = run([*words, "--view", view, "-o", tmp_path / "a.ppm"], seconds=60)
+    program = whole_kit.reference("raytrace")
+    typed: list[str | Path] = [
+        program,
+        project.scenes / scene,
+        "--size",
+        "8x8",
+        *words.split(),
+        "-o",
+        tmp_path / "a.ppm",
+    ]
+    outcome = run(typed, seconds=60)
     assert outcome.code == 0
     assert ("which shine from step 12 on only" in outcome.stderr) == is_black
     assert bool(read_ppm(tmp_path / "a.ppm").any()) == (not is_black)

@@ -131,6 +131,18 @@ def test_before_there_is_a_picture_the_reference_is_shown(live: Live, pages: Wat
     assert not goal.is_visible()
 
 
+def test_a_picture_that_waits_is_not_called_wrong(live: Live, pages: Watched) -> None:
+    page = pages.open(live.server.address)
+    view = live.view("// wrong")
+    assert view.result is not None
+    view.result.images[0].waits_for = "primary_ray"
+    view.result.images[0].message = "It waits for primary_ray, not written yet."
+    live.show(view)
+    _says(page, "#watch-first h2", "… waits")
+    _says(page, "#watch-first", "It waits for primary_ray")
+    assert page.locator("#watch-first .watch-bad").count() == 0
+
+
 def test_another_step_takes_the_place_of_this_one(live: Live, pages: Watched, steps: list[Step]) -> None:
     page = pages.open(live.server.address)
     live.show(live.view("// wrong"))

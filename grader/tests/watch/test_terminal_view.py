@@ -8,7 +8,7 @@ from course_fakes import printed, text
 from rich.console import Console
 
 from raysteps.course.manifest import Step
-from raysteps.results.model import StepResult, TestResult
+from raysteps.results.model import ImageResult, StepResult, TestResult
 from raysteps.watch.step_view import StepView
 from raysteps.watch.terminal_view import TerminalView
 
@@ -53,3 +53,16 @@ def test_a_check_tells_what_the_look_before_it_could_not(steps: list[Step]) -> N
     console = printed()
     TerminalView(console).result(replace(view, looked=tuple(result.tests)))
     assert "first" not in text(console)
+
+
+def test_only_a_picture_that_is_wrong_is_red(steps: list[Step]) -> None:
+    result = StepResult(steps[0].id, "failed", 2.0, steps[0].points, bonus=False)
+    wrong = ImageResult("balls", "a.nff", False, 0.001, message="3 pixels differ.")
+    waits = ImageResult("few", "a.nff", False, 0.001, message="It waits for view_frame.", waits_for="view_frame")
+    result.images = [wrong, waits]
+    console = Console(file=io.StringIO(), width=200, force_terminal=True, color_system="standard")
+    TerminalView(console).result(StepView(steps[0], "idle", result=result, complete=True))
+    assert isinstance(console.file, io.StringIO)
+    lines = console.file.getvalue().splitlines()
+    red = {name: any("\x1b[31m" in line for line in lines if name in line) for name in ("3 pixels", "It waits")}
+    assert red == {"3 pixels": True, "It waits": False}

@@ -33,8 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--textures",
         choices=["beside", "inside", "none"],
-        help="of SCENE.pbrt: files beside the scene (beside, the usual), a part of its text, as one that is graded "
-        "needs it (inside), or mean colours only (none)",
+        help="where the textures of SCENE.pbrt go: into files beside it (beside, the usual), into its text, as a "
+        "graded scene needs it (inside), or nowhere: mean colours only (none)",
     )
 
 

@@ -68,7 +68,7 @@ def inspect_command(name: str, step: Step | None, *, has_reference: bool) -> str
 def inspect_worst(step: Step, image: ImageResult, out: Path) -> list[str] | None:
     """What to type after `./raysteps`, at the size of the picture itself: another size has other pixels."""
     case = next((case for case in step.images if case.name == image.name), None)
-    if case is None or image.passed or image.waits_for or not image.mine or not image.reference:
+    if case is None or image.passed or not image.mine or not image.reference:
         return None
     worst = worst_pixel(out / image.mine, out / image.reference)
     return None if worst is None else _inspect_words(case, *worst, here().has_reference)

@@ -105,8 +105,8 @@ def _flip(reference: bytes, mine: bytes, shape: tuple[int, ...]) -> str | None:
 
 
 def _flip_of(folder: Path, image: ImageResult) -> str | None:
-    """Of pictures that are wrong: where all is right there is nothing to see."""
-    if image.passed or not image.mine:
+    """Of pictures that are wrong: where all is right, or waits, there is nothing to see."""
+    if image.passed or image.waits_for or not image.mine:
         return None
     try:
         names = (image.reference or "", image.mine)

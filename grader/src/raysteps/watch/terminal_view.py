@@ -127,8 +127,8 @@ class TerminalView:
 
     def _pictures(self, result: StepResult) -> None:
         for image in result.images:
-            if not image.passed and not image.waits_for:
-                self.line(f"  picture  {image.name}: {image.message}", "red")
+            if not image.passed:
+                self.line(f"  picture  {image.name}: {image.message}", "" if image.waits_for else "red")
 
     def _hidden(self, missed: Sequence[HiddenResult]) -> None:
         for item in missed[:_MAX_FAILED]:

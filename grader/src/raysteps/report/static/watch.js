@@ -8,7 +8,7 @@ const signOf = ({ passed, waits, mine, message }) => {
   if (waits) {
     return [" … waits", ""];
   }
-  return [mine ? " ✗ wrong" : message ? " ✗ missing" : "", "watch-bad"];
+  return mine || message ? [mine ? " ✗ wrong" : " ✗ missing", "watch-bad"] : ["", ""];
 };
 
 /** The pictures of a step; an element stays as long as its picture, so that nobody loses a zoom with a save. */
