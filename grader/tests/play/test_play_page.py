@@ -10,6 +10,7 @@ import zipfile
 from collections.abc import Iterator
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.error import HTTPError
@@ -568,3 +569,17 @@ def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     assert not page.locator("#play-folder").is_visible()
     assert_no_sideways_scrolling(page)
     assert_accessible(page)
+
+
+def test_rooms_scroll_and_the_page_does_not(page: "Page") -> None:
+    """On a wide screen; and what is said of a pixel stands together, however high the stage beside it is."""
+    from playwright.sync_api import expect
+
+    page.mouse.move(700, 20)  # above the rooms
+    page.mouse.wheel(0, 3000)
+    assert page.evaluate("document.documentElement.scrollHeight - innerHeight") <= 0
+    page.get_by_role("button", name="Look inside pixel").first.click()
+    lines = page.locator("#play-inside .trees > *")
+    expect(lines.last).to_contain_text("shows the direction of its eye ray", timeout=STARTED)
+    boxes = lines.evaluate_all("all => all.map(one => one.getBoundingClientRect()).map(box => [box.top, box.bottom])")
+    assert max(below[0] - above[1] for above, below in pairwise(boxes)) < 40
