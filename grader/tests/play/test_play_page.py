@@ -343,6 +343,38 @@ def test_every_step_keeps_its_text_when_steps_change_quickly(
     assert load_submission(tmp_path / "my-steps.zip", steps).sources == {steps[0].id: texts[0].encode()}
 
 
+def test_what_is_typed_just_before_the_page_goes_is_kept(page: "Page") -> None:
+    from playwright.sync_api import expect
+
+    write(page, "// of the last moment\n")
+    page.reload()
+    expect(page.locator(".cm-content")).to_contain_text("// of the last moment")
+    write(page, "// later\n")
+    expect(page.locator("#play-kept")).to_have_text("Kept in this browser.")
+    page.reload()  # what was left before does not come again
+    expect(page.locator(".cm-content")).to_contain_text("// later")
+    _begin_again(page)
+    _says(page, r"0 of 12 tests pass", timeout=STARTED)
+    expect(page.locator("#play-kept")).to_be_empty()
+
+
+def test_a_step_that_cannot_be_loaded_can_be_chosen_again(watched: Watched, page: "Page") -> None:
+    from playwright.sync_api import expect
+
+    watched.expected = "net::ERR_FAILED"
+    write(page, "// of step 01\n")
+    page.route("**/steps/02.html", lambda route: route.abort())
+    page.locator("#play-step").select_option("02")
+    _says(page, r"Step 02 cannot be loaded\. Is there a network")
+    expect(page.locator("#play-step")).to_have_value("01")
+    expect(page.locator(".cm-content")).to_contain_text("// of step 01")
+    page.unroute("**/steps/02.html")
+    page.locator("#play-step").select_option("02")
+    _says(page, r"Step 02: 0 of 16 tests pass", timeout=STARTED)
+    expect(page.locator("#play-file")).to_contain_text("02-intersection")
+    expect(page.locator("#play-kept")).to_be_empty()
+
+
 # A mistake in each step: what is written instead of what, the test that says so, and what it expected.
 _MISTAKES = {
     2: ("nearer > 0.0F ? nearer : ", "", "Sphere: head-on the nearer of the two points", "distance"),

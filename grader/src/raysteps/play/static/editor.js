@@ -146,6 +146,10 @@ export class Editor {
     this.#view.dispatch(setDiagnostics(this.#view.state, diagnostics));
   }
 
+  toTop() {
+    this.#view.scrollDOM.scrollTop = 0;
+  }
+
   /** Shows a line. */
   goTo(line) {
     const place = this.#view.state.doc.line(Math.min(Math.max(line, 1), this.#view.state.doc.lines));

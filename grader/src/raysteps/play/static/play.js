@@ -49,6 +49,16 @@ async function keepFiles() {
   }
 }
 
+/** Nothing where it cannot be loaded. */
+async function handoutOf(step) {
+  try {
+    const answer = await fetch(`steps/${step.number}.html`);
+    return answer.ok ? await answer.text() : null;
+  } catch {
+    return null;
+  }
+}
+
 class Page {
   #work;
   #turn = new Turn();
@@ -82,7 +92,8 @@ class Page {
       location.hash = event.target.value;
     });
     addEventListener("hashchange", () => this.#open().catch((error) => this.tellFault(error)));
-    addEventListener("pagehide", () => this.#keep());
+    addEventListener("pagehide", () => this.#leave());
+    document.addEventListener("visibilitychange", () => this.#keep());
     element("play-run").addEventListener("click", () => this.run());
     element("play-stop").addEventListener("click", () => this.stop());
     element("play-save").addEventListener("click", () => this.#saveZip());
@@ -127,7 +138,11 @@ class Page {
     if (wanted === this.#step) {
       return;
     }
-    const handout = await (await fetch(`steps/${wanted.number}.html`)).text();
+    const handout = await handoutOf(wanted);
+    if (handout === null) {
+      this.#stay(wanted);
+      return;
+    }
     await this.#keep(); // before another tab may have it
     const isMine = await this.#turn.take(turnOf(wanted), (now) => this.#changeTurn(now));
     const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
@@ -140,6 +155,8 @@ class Page {
     this.stop();
     this.#step = wanted; // and its text with it, without a pause: what is kept is always the step's own
     this.#show(source, isMine);
+    this.#editor.toTop();
+    element("play-kept").textContent = "";
     element("play-next").hidden = element("play-stale").hidden = true;
     element("play-step").value = wanted.number;
     document.title = `${wanted.number} ${wanted.title} · Raysteps`;
@@ -159,6 +176,17 @@ class Page {
     if (before) {
       await this.run();
     }
+  }
+
+  /** Another step was chosen and cannot be had: the one that is shown stays chosen, so that the other can be again. */
+  #stay({ number }) {
+    if (!this.#step) {
+      throw new Error(`step ${number} cannot be loaded`);
+    }
+    const help = "Is there a network, and is the page's server still there? Choose it again then.";
+    this.#say("bad", `Step ${number} cannot be loaded. ${help}`);
+    history.replaceState(null, "", `#${this.#step.number}`);
+    element("play-step").value = this.#step.number;
   }
 
   get #next() {
@@ -215,6 +243,15 @@ class Page {
     }
   }
 
+  /** What was typed a moment ago, too. */
+  #leave() {
+    const isNew = this.#step && this.#isMine && this.#editor.text !== this.#kept;
+    this.#keep();
+    if (isNew) {
+      this.#work.leave(this.#step.id, this.#editor.text);
+    }
+  }
+
   async #sourceOf(step) {
     return step === this.#step ? this.#editor.text : ((await this.#work.read(step.id)) ?? step.stub);
   }
@@ -235,6 +272,7 @@ class Page {
       return;
     }
     this.#show(step.stub, true);
+    element("play-kept").textContent = "";
     this.#offer(old);
     await this.#work.forget(step.id);
     await this.run();

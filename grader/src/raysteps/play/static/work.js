@@ -9,32 +9,69 @@ function asked(request) {
   });
 }
 
-/** The sources by step, in IndexedDB. */
+/** The sources by step, in IndexedDB; what a page leaves when it goes, in local storage until it is asked for. */
 export class Work {
+  #name;
   #database;
 
   static async open(name) {
     const request = indexedDB.open(name, 1);
     request.onupgradeneeded = () => request.result.createObjectStore(STORE);
     const work = new Work();
+    work.#name = name;
     work.#database = await asked(request);
     return work;
+  }
+
+  /** Where a step is left: a database takes nothing more from a page that goes. */
+  #place(step) {
+    return `${this.#name} ${step}`;
+  }
+
+  /** Keeps at once. A browser that has no room for it says so, and then there is what was written before. */
+  leave(step, source) {
+    try {
+      localStorage.setItem(this.#place(step), source);
+    } catch {
+      // no local storage
+    }
+  }
+
+  #left(step) {
+    try {
+      return localStorage.getItem(this.#place(step));
+    } catch {
+      return null;
+    }
   }
 
   #store(mode) {
     return this.#database.transaction(STORE, mode).objectStore(STORE);
   }
 
-  read(step) {
+  async read(step) {
+    const left = this.#left(step);
+    if (left !== null) {
+      await asked(this.#store("readwrite").put(left, step));
+      this.#dropLeft(step);
+    }
     return asked(this.#store("readonly").get(step));
   }
 
   write(step, source) {
+    this.#dropLeft(step);
     return asked(this.#store("readwrite").put(source, step));
   }
 
   forget(step) {
+    this.#dropLeft(step);
     return asked(this.#store("readwrite").delete(step));
+  }
+
+  #dropLeft(step) {
+    if (this.#left(step) !== null) {
+      localStorage.removeItem(this.#place(step));
+    }
   }
 }
 
