@@ -249,7 +249,7 @@ def test_a_larger_shine_makes_the_highlight_narrower(
 ) -> None:
     page = opened("03")
     words, figure = _words(page, "phong"), _figure(page, "phong")
-    says(words, "It waits for mirror and diffuse and specular and shade: not written yet")
+    says(words, "It waits for mirror, diffuse, specular and shade: not written yet")
     save(page, solved["03-phong-shading"])
     diffuse = _states(project, steps[2], "diffuse = (0.48, 0.24, 0)").removeprefix("diffuse\\ =\\ ")
     mirrored = _states(project, steps[2], "r = (-0.6, 0, 0.8)").removeprefix("r\\ =\\ ")

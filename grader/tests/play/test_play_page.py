@@ -17,7 +17,7 @@ from urllib.error import HTTPError
 from urllib.request import urlopen
 
 import pytest
-from browser import Watched, assert_accessible, assert_no_sideways_scrolling
+from browser import Watched, assert_accessible, assert_no_sideways_scrolling, broken_words
 from play_pages import STARTED, save, says, with_packages, write
 
 from raysteps.cli.render import build_program
@@ -255,7 +255,9 @@ def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project
     _says(page, r"It does not compile\.")
     _begin_again(page)
     _says(page, r"0 of 12 tests pass")
-    expect(page.locator("#play-tests summary").first).to_have_text("12 wait for a function that is not written yet")
+    expect(page.locator("#play-tests summary").first).to_have_text(
+        "12 tests wait for a function that is not written yet"
+    )
     stub = pristine_stub(project, steps[0]).split()
     assert _source(page).split() == stub
     _begin_again(page)  # where nothing was written, nothing is lost
@@ -594,6 +596,9 @@ def test_a_folder_on_disk_and_the_page_follow_each_other(
 
 
 def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
+    """The rooms stand below each other there, and what one needs in all of them stays in sight."""
+    from playwright.sync_api import expect
+
     watched.allowed.append(server.address)
     no_folders = "delete window.showDirectoryPicker;"
     page = watched.open(server.address, width=390, scheme="dark", touch=True, before=no_folders)
@@ -601,6 +606,23 @@ def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     assert not page.locator("#play-folder").is_visible()
     assert_no_sideways_scrolling(page)
     assert_accessible(page)
+    assert broken_words(page, "#play-handout table") == []
+
+    def top(room: str) -> float:
+        return float(page.locator(room).evaluate("room => room.getBoundingClientRect().top"))
+
+    for title, room in [("Source", "#play-source"), ("Results", "#play-results"), ("Handout", "#play-handout")]:
+        page.get_by_role("button", name=title, exact=True).tap()
+        page.wait_for_function("room => document.querySelector(room).getBoundingClientRect().top < 200", arg=room)
+        assert top(room) >= page.locator(".page-head").evaluate("head => head.getBoundingClientRect().bottom")
+        expect(page.get_by_role("button", name="Run")).to_be_in_viewport()
+        expect(page.locator("#play-status")).to_be_in_viewport()
+    page.get_by_role("button", name="Hint").tap()
+    expect(page.locator("#play-hints p")).to_be_in_viewport()
+    expect(page.locator("#play-hints code").first).to_have_text("from")
+    page.locator("#play-step").select_option("02")
+    _says(page, r"0 of 16 tests pass", timeout=STARTED)
+    expect(page.locator("#play-handout h1")).to_be_in_viewport()
 
 
 def test_rooms_scroll_and_the_page_does_not(page: "Page") -> None:

@@ -349,7 +349,8 @@ function answerOf({ code, stdout, stderr }) {
 function whyNot(ran) {
   const missing = [...(ran.stderr ?? "").matchAll(UNWRITTEN)].map(([, name]) => name);
   if (missing.length) {
-    return `It waits for ${missing.join(" and ")}: not written yet.`;
+    const names = [missing.slice(0, -1).join(", "), missing.at(-1)].filter(Boolean).join(" and ");
+    return `It waits for ${names}: not written yet.`;
   }
   if (ran.stopped) {
     return `Your code gave no answer within ${SECONDS} s. Is there an endless loop?`;

@@ -16,6 +16,7 @@ const COMPILE_SECONDS = 60;
 const KEEP_AFTER = 300; // milliseconds without a key
 const SOON = 3000; // milliseconds until a service worker is there, or the page begins without it
 const turnOf = (step) => `raysteps-play ${step.id}`; // of the tab that writes it
+const LOADED = { [data.kit.clang]: "the compiler", [data.kit.system]: "C++", [data.kit.parts]: "the kit" };
 const replaced = (step) => `${step.id} before its reset`; // what may be brought back, by this name in the work
 
 /** What the compiler says: `{file, line, column, severity, message}`, notes behind what they belong to. */
@@ -47,6 +48,13 @@ async function keepFiles() {
   } catch {
     // a browser that keeps nothing, as in a private window: then all is loaded each time
   }
+}
+
+/** Words flow, and keep `code` apart; what has columns, as pseudocode has, keeps them. */
+function hint(text) {
+  const pieces = text.split("`").map((piece, at) => (at % 2 ? make("code", {}, piece) : piece));
+  const hasColumns = /\S {2}|^ /m.test(text);
+  return hasColumns ? make("pre", { class: "play-hint", tabindex: 0 }, ...pieces) : make("p", {}, ...pieces);
 }
 
 /** Nothing where it cannot be loaded. */
@@ -115,6 +123,9 @@ class Page {
       }
     });
     element("play-back").addEventListener("click", () => this.#bringBack());
+    for (const button of document.querySelectorAll(".play-rooms button")) {
+      button.addEventListener("click", () => element(button.dataset.room).scrollIntoView());
+    }
     openTexts((error) => this.tellFault(error));
     addEventListener("keydown", (event) => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
@@ -174,6 +185,7 @@ class Page {
     this.#offer(old);
     await this.#sync(false);
     if (before) {
+      scrollTo(0, 0); // where the rooms stand below each other
       await this.run();
     }
   }
@@ -471,7 +483,8 @@ class Page {
     const room = element("play-hints");
     const text = this.#step.hints[room.childElementCount];
     if (text) {
-      room.append(make("pre", { class: "play-hint", tabindex: 0 }, text.trim()));
+      const title = make("summary", {}, `Hint ${room.childElementCount + 1} of ${this.#step.hints.length}`);
+      room.append(make("details", { open: true }, title, hint(text.trim())));
       room.lastElementChild.scrollIntoView({ block: "nearest" });
     }
     element("play-hint").disabled = room.childElementCount >= this.#step.hints.length;
@@ -502,30 +515,35 @@ class Page {
     bar.hidden = total > 0 && done >= total;
     bar.max = total || 1;
     bar.value = done;
-    this.#say("busy", `Loading ${name}: ${megabytes(done)}${total ? ` of ${megabytes(total)}` : ""}`);
+    const what = LOADED[name] ?? "what the step includes";
+    this.#say("busy", `Loading ${what}: ${megabytes(done)}${total ? ` of ${megabytes(total)}` : ""}`);
   }
 
   // A run: compile, link, test, draw.
 
   stop() {
+    this.#end();
+    this.#say("idle", "Stopped.");
+  }
+
+  #end() {
     this.#run++;
     this.#compiler.stop("The compiler was stopped.");
     this.#tester.stop();
     this.#painter.stop();
     this.#figures.stop();
     this.#inside.stop();
-    this.#say("idle", "Stopped.");
   }
 
   async run() {
-    this.stop();
+    this.#end();
+    this.#say("busy", "Loading the compiler ...");
     const run = this.#run;
     const step = this.#step;
     const start = performance.now();
     try {
       await this.#keep();
       await this.#sync(true);
-      this.#say("busy", "Loading the compiler ...");
       await this.#compiler.prepare();
       const sources = await this.#sourcesFor(step);
       if (run !== this.#run) {

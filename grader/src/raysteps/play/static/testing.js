@@ -50,7 +50,10 @@ function tellTests(step, source, results) {
         }),
       ),
     ),
-    ...list(`${waiting.length} wait for a function that is not written yet`, waiting),
+    ...list(
+      `${waiting.length} ${waiting.length > 1 ? "tests wait" : "test waits"} for a function that is not written yet`,
+      waiting,
+    ),
     ...list(`${right.length} of ${results.length} tests pass`, right),
   );
 }
