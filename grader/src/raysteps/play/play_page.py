@@ -74,7 +74,8 @@ _TYPED = '<pre tabindex="0"><code>./raysteps '
 _NOT_TYPED = (
     '<p class="play-note">Lines that begin with <code>./raysteps</code> are typed where the kit is installed. On this '
     "page <em>Run</em> checks and draws as <code>check</code> and <code>render</code> do, <em>Look inside pixel</em> "
-    "is <code>inspect</code>, and <em>Hint</em> is <code>hint</code>.</p>\n"
+    "is <code>inspect</code>, and <em>Hint</em> is <code>hint</code>. The tests take the same random inputs in each "
+    "run here; <code>RAYSTEPS_SEED</code> is for the kit.</p>\n"
 )
 
 

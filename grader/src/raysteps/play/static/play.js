@@ -559,6 +559,7 @@ class Page {
       this.#tellProblems(step, built);
       element("play-stale").hidden = built.program !== null || !element("play-first").childElementCount;
       if (!built.program) {
+        element("play-next").hidden = true;
         this.#say("bad", built.stopped ?? "It does not compile.");
         return;
       }
