@@ -223,6 +223,7 @@ TEST_CASE("cosine_pdf: over all directions it adds up to 1", "[13-path-tracing][
     for (const float density : densities) {
         sum += static_cast<double>(density);
     }
+    INFO("the mean over the whole sphere, times its area 4 pi; directions below the surface count 0");
     CHECK(4.0 * static_cast<double>(k_pi) * sum / k_many == about(1.0, 0.08));
 }
 
@@ -370,8 +371,7 @@ TEST_CASE("path_light: three bounces are sure", "[13-path-tracing][path_light]")
 TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracing][path_light]") {
     INFO(
         "walls that send half of the light on, 1 from the lamps at each: 1 + 1/2 + 1/4 + ... = 2. Less: who survives "
-        "counts "
-        "weight / q");
+        "counts weight / q");
     const Means half = means_of({Stop{.light = k_white, .weight = Color(0.5F)}});
     CHECK(half.light == about(2.0, 0.035));
     INFO(
