@@ -88,9 +88,10 @@ _HIT = Hit((0.0, 0.0, 0.0), _UP, (0.0, 0.0, -1.0), 1.0, Fill((0.8, 0.4, 0.2), 0.
 _SCATTER: Inputs = {"hit": _HIT, "seed": Whole(1), "times": Whole(_TIMES)}
 
 
-def _samples(weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0) -> str:
+def _samples(weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0, power: int = 0) -> str:
+    """`power`: of the cosine, in the weight."""
     directions = _right()
-    weights = np.tile(weight * np.array((0.4, 0.2, 0.1)), (_TIMES, 1))
+    weights = weight * directions[:, 2:] ** power * np.array((0.4, 0.2, 0.1))
     pdfs = pdf * directions[:, 2:] / math.pi
     rows = np.concatenate([np.ones((_TIMES, 1)), directions, weights, pdfs, np.full((_TIMES, 1), specular)], axis=1)
     return _line(rows)
@@ -100,6 +101,13 @@ def _samples(weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0) -> st
     ("line", "said"),
     [
         (_samples(weight=0.99), "the weight is not f cos / pdf"),
+        (_samples(power=2), "the weight is not f cos / pdf"),
+        (_samples(weight=math.pi), "the weight is pi times f cos / pdf"),
+        (_samples(weight=1 / math.pi), "the weight is f cos / pdf over pi"),
+        (_samples(power=1), "times the cosine once more"),
+        (_samples(power=-1), "the weight is f / pdf without the cosine"),
+        (_samples(weight=1 / math.pi, power=1), "the weight is f cos without the pdf"),
+        (_samples(weight=2, power=1), "equally likely"),
         (_samples(pdf=1.01), "the pdf is not that of the direction"),
         (_samples(specular=1.0), "a specular sample"),
         ("0 " * _TIMES, "nothing came"),

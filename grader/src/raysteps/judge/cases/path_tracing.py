@@ -159,6 +159,28 @@ _COSINE_PDF = Function(
 _WEIGHT = Tolerance(1e-5, 5e-4)
 _STEEP = 0.02  # cosine: below it a float's rounding is too much of it to compare with
 
+# Wrong weights beside the right one: a factor, and a power of the cosine. No answer by chance is compared with
+# another's numbers, so known mistakes are told apart by these words alone.
+_WRONG_WEIGHTS = {
+    "the weight is pi times f cos / pdf": (math.pi, 0),
+    "the weight is f cos / pdf over pi": (1 / math.pi, 0),
+    "the weight is f cos / pdf times the cosine once more": (1.0, 1),
+    "the weight is f / pdf without the cosine": (1.0, -1),
+    "the weight is f cos without the pdf": (1 / math.pi, 1),
+    "the weight is f cos over the pdf of directions that are all equally likely": (2.0, 1),
+}
+
+
+def _weight_problem(weights: Numbers, albedo: Numbers, cosines: Numbers) -> str:
+    if (np.abs(weights - albedo) <= _WEIGHT.absolute + _WEIGHT.relative * albedo).all():
+        return ""
+    steep = cosines > _STEEP
+    for words, (factor, power) in _WRONG_WEIGHTS.items():
+        wrong = factor * cosines[steep, np.newaxis] ** power * albedo
+        if steep.any() and np.allclose(weights[steep], wrong, rtol=2e-3, atol=0.0):
+            return words
+    return "the weight is not f cos / pdf"
+
 
 def _of_the_hit(inputs: Inputs) -> tuple[Vector, Vector]:
     """Normal, and albedo."""
@@ -179,10 +201,9 @@ def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     steep = cosines > _STEEP
     densities = np.maximum(cosines, 0.0) / math.pi
     right_pdf = bool(np.all(np.abs(actual.pdfs - densities)[steep] <= _DENSITY.absolute + 1e-3 * densities[steep]))
-    gaps = np.abs(actual.weights - np.array(albedo)) <= _WEIGHT.absolute + _WEIGHT.relative * np.array(albedo)
     return (
         _density_problem(actual.directions, normal),
-        "" if gaps.all() else "the weight is not f cos / pdf",
+        _weight_problem(actual.weights, np.array(albedo), cosines),
         "" if right_pdf else "the pdf is not that of the direction",
         "a diffuse surface gives a specular sample" if actual.is_specular_somewhere else "",
     )
