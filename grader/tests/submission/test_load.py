@@ -187,6 +187,13 @@ def test_damaged_archives_are_a_usage_error(tmp_path: Path, steps: list[Step], e
             load_submission(path, steps)
 
 
+def test_one_file_of_a_step_is_no_submission(tmp_path: Path, steps: list[Step]) -> None:
+    path = tmp_path / "shadows.cpp"
+    path.write_text("int x;\n", encoding="utf-8")
+    with pytest.raises(UsageError, match=r"shadows\.cpp: is one file; expected a folder with files like steps/01-"):
+        load_submission(path, steps)
+
+
 def test_names_that_are_not_utf8(tmp_path: Path) -> None:
     folder = Path(os.fsdecode(os.fsencode(tmp_path) + b"/an\xffna"))
     assert submission_name(folder) == "an?na"

@@ -257,6 +257,11 @@ def load_submission(path: Path, steps: list[Step]) -> Submission:
     try:
         _collect(path, collector)
     except DAMAGED as error:
+        if path.is_file() and not path.name.lower().endswith(ARCHIVE_ENDINGS):
+            example = f"steps/{steps[0].path.as_posix()}"
+            raise UsageError(
+                f"{path}: is one file; expected a folder with files like {example}, or a zip or tar of it"
+            ) from error
         why = "an archive may be damaged or cut off"
         raise UsageError(f"{path}: cannot be read as a folder, zip or tar; {why} ({reason(error)})") from error
     submission = collector.submission(submission_name(path))
