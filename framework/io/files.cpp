@@ -19,10 +19,6 @@ std::string sentence(std::string_view where, std::string_view expected, std::str
     return text;
 }
 
-std::string place(std::string_view file, std::size_t line, std::size_t column) {
-    return std::string(file) + ":" + std::to_string(line) + ":" + std::to_string(column);
-}
-
 // One character of a message: itself when it is printable ASCII, else \xNN.
 std::string printable(char character) {
     const auto byte = static_cast<unsigned char>(character);
@@ -92,6 +88,10 @@ bool must_be_overwritten(const fs::path& target, const fs::file_status& status) 
 }
 
 }  // namespace
+
+std::string place(std::string_view file, std::size_t line, std::size_t column) {
+    return std::string(file) + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
 
 ReadError::ReadError(std::string_view file, std::string_view expected, std::string_view found)
     : std::runtime_error(sentence(file, expected, found)) {}

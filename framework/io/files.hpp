@@ -17,6 +17,9 @@ public:
               std::string_view found);
 };
 
+/// A place in a text as messages name it: file:line:column, from 1 on.
+[[nodiscard]] std::string place(std::string_view file, std::size_t line, std::size_t column);
+
 /// Text from a file as a message may show it: in backquotes, at most 20 characters, anything unprintable as \xNN.
 [[nodiscard]] std::string quoted(std::string_view text);
 

@@ -147,9 +147,7 @@ void PbrtScanner::add_value(PbrtParameter& parameter, const Token& token) const 
     parameter.numbers.push_back(static_cast<float>(*number));
 }
 
-std::string PbrtScanner::place_of(const Token& token) const {
-    return name_ + ":" + std::to_string(token.line) + ":" + std::to_string(token.column);
-}
+std::string PbrtScanner::place_of(const Token& token) const { return place(name_, token.line, token.column); }
 
 void PbrtScanner::fail(const Token& token, std::string_view expected) const {
     fail(token, expected, token.is_end() ? "the end of the file" : quoted(token.text));
