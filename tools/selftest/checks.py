@@ -30,8 +30,8 @@ class Report:
 
 @dataclass(frozen=True)
 class Check:
-    """A named check. `inputs` are the files that it depends on; without them it is always run. One that does
-    not keep all processors busy all the time may run `beside` others of its kind."""
+    """A named check. `inputs` are the files that it depends on; without them it is always run. One that keeps no more
+    than one processor busy may run `beside` others of its kind."""
 
     name: str
     run: Callable[[], Report]

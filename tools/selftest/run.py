@@ -195,10 +195,10 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         *program_checks(tree, inputs),
         same_pictures_check(project, tree, inputs),
     ]
+    checks += grade_checks(project, console, inputs, full=full)
     marks = [_QUICK, *([_SLOW] if full else [])]
     name = f"pytest, with grading from end to end{f', {_SLOW_TESTS}' if full else ''}"
-    checks += grade_checks(project, console, inputs, full=full)
-    checks.append(Check(name, lambda: run_pytest(project, stamps, marks), beside=True))
+    checks.append(Check(name, lambda: run_pytest(project, stamps, marks)))
     if full:
         more = [*fuzz_checks(project, inputs), *asan_checks(project, inputs), *windows_checks(project, tree, inputs)]
         more += lint_checks(project, (TIDY,))
