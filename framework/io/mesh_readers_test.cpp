@@ -108,6 +108,8 @@ TEST_CASE("bad PLY files", "[ply][errors]") {
     CHECK(ply_error("ply\nformat ascii 1.0\nelement vertex 3\nproperty quad x\n") ==
           "bad.ply:4:1: expected `property`, a type and a name, or `property list` with two types and a name, found "
           "`property quad x`");
+    CHECK(ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float nx\nelement vertex 1\n") ==
+          "bad.ply:5:1: expected an element of another name than those before, found `element vertex 1`");
     CHECK(ply_error("ply\nformat ascii 1.0\n") == "bad.ply:3:1: expected `end_header`, found nothing");
     CHECK(ply_error(k_text_head + "0 0 0\n1 0 zero\n") == "bad.ply: vertex 1: expected a coordinate, found `zero`");
     CHECK(ply_error(k_text_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") ==
@@ -159,6 +161,14 @@ TEST_CASE("textures: a screen's bytes become light", "[texture]") {
     CHECK_THAT(texture.texel(0, 0), IsNear({1.0F, 0.0F, 0.5029F}, 1e-3F));
     CHECK_THAT(texture.texel(1, 0), IsNear({0.003035F, 0.2159F, 1.0F}, 1e-3F));
     CHECK_THAT(read_texture(png_bytes(image), "a.png", true).texel(1, 0), IsNear({10.0F / 255, 128.0F / 255, 1.0F}));
+}
+
+TEST_CASE("a PNG may have empty chunks of data", "[texture]") {
+    Image image(2, 1);
+    image.at(1, 0) = {10, 128, 255};
+    std::string bytes = png_bytes(image);
+    bytes.insert(bytes.find("IDAT") - 4, std::string("\0\0\0\0IDAT\x35\xAF\x06\x1E", 12));
+    CHECK_THAT(read_texture(bytes, "a.png", true).texel(1, 0), IsNear({10.0F / 255, 128.0F / 255, 1.0F}));
 }
 
 TEST_CASE("a JPEG is read with the tables that it brings", "[texture]") {

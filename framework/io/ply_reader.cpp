@@ -222,6 +222,9 @@ private:
         if (!count || *count < 0 || std::cmp_greater(*count, k_max_mesh_items)) {
             fail("a number of elements up to 67108864", line);
         }
+        if (std::any_of(elements_.begin(), elements_.end(), [&](const Element& one) { return one.name == words[1]; })) {
+            fail("an element of another name than those before", line);
+        }
         elements_.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
     }
 

@@ -58,11 +58,14 @@ bool has_sound_tables(std::string_view bytes) {
     return true;
 }
 
-/// Whether each chunk of a PNG lies within the file. stb_image takes as much memory as a damaged one says that it has.
-bool has_whole_chunks(std::string_view png) {
+/// The PNG without empty chunks of data, or nothing where a chunk does not lie within the file. stb_image takes as
+/// much memory as a damaged one says that it has, and copies to a null pointer where the first part of the picture's
+/// data is empty.
+std::optional<std::string> with_sound_chunks(std::string_view png) {
     constexpr std::size_t k_signature = 8;
     constexpr std::size_t k_head = 8;     // bytes of a chunk: length and kind
     constexpr std::size_t k_around = 12;  // and, behind its data, a check sum
+    std::string sound(png.substr(0, k_signature));
     std::size_t at = k_signature;
     while (at + k_around <= png.size()) {
         std::size_t length = 0;
@@ -70,16 +73,22 @@ bool has_whole_chunks(std::string_view png) {
             length = 256 * length + static_cast<unsigned char>(png[at + i]);
         }
         if (length > png.size() - at - k_around) {
-            return false;
+            return std::nullopt;
+        }
+        if (length > 0 || png.substr(at + 4, 4) != "IDAT") {
+            sound += png.substr(at, k_around + length);
         }
         at += k_around + length;
     }
-    return at + k_head > png.size();
+    return at + k_head > png.size() ? std::optional(sound) : std::nullopt;
 }
 
 /// The JPEG with all eight Huffman tables defined at its start, by one code each; its own take their places. stb_image
-/// reads beyond its tables where a damaged file uses one that it never defined.
-std::string with_all_tables(std::string_view jpeg) {
+/// reads beyond its tables where a damaged file uses one that it never defined. Nothing where a table is not sound.
+std::optional<std::string> with_all_tables(std::string_view jpeg) {
+    if (!has_sound_tables(jpeg)) {
+        return std::nullopt;
+    }
     constexpr std::size_t k_marker = 2;
     std::string tables("\xFF\xC4\x00\x92", 4);  // a segment of 146 bytes: its length, and 8 tables of 18 bytes
     for (const char table : std::string_view("\0\1\2\3\x10\x11\x12\x13", 8)) {
@@ -140,12 +149,12 @@ Texture read_texture(std::string_view bytes, const std::string& name, bool linea
     if (!is_jpeg && !bytes.starts_with("\x89PNG")) {
         throw ReadError(name, "a picture as PNG or JPEG", "something else");
     }
-    if (is_jpeg ? !has_sound_tables(bytes) : !has_whole_chunks(bytes)) {
+    const std::optional<std::string> whole = is_jpeg ? with_all_tables(bytes) : with_sound_chunks(bytes);
+    if (!whole) {
         throw ReadError(name, "a whole picture", "one that is damaged");
     }
-    const std::string whole = is_jpeg ? with_all_tables(bytes) : std::string(bytes);
-    const auto* data = reinterpret_cast<const stbi_uc*>(whole.data());
-    const int size = static_cast<int>(whole.size());
+    const auto* data = reinterpret_cast<const stbi_uc*>(whole->data());
+    const int size = static_cast<int>(whole->size());
     int width = 0;
     int height = 0;
     int channels = 0;

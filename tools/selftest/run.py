@@ -205,6 +205,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         checks += sorted(more, key=lambda check: check.beside)  # builds first, each on the whole machine
     else:
         later = Report("skipped", "run: ./raysteps test --full")
-        names = ("sanitizers and clang", "fuzz-readers for 60 s", "clang-tidy", "Windows")
+        names = ("sanitizers and clang", "fuzz-readers", "clang-tidy", "Windows")
         checks += [Check(name, lambda: later) for name in (_SLOW_TESTS, *names)]
     return run_checks(checks, console, stamps)
