@@ -64,12 +64,12 @@ void run_on_threads(int count, const std::function<void()>& work) {
     }
 }
 
-void run_in_portions(int threads, std::size_t count, std::size_t portion,
-                     const std::function<void(std::size_t, std::size_t)>& work) {
+void run_in_portions(int threads, std::size_t count, std::size_t portion, PortionWork work, const void* what) {
+    const std::size_t portions = (count + portion - 1) / portion;
     std::atomic<std::size_t> next{0};
-    run_on_threads(threads, [&] {
+    run_on_threads(static_cast<int>(std::min(portions, static_cast<std::size_t>(threads))), [&] {
         for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
-            work(begin, std::min(begin + portion, count));
+            work(what, begin, std::min(begin + portion, count));
         }
     });
 }

@@ -20,25 +20,29 @@ void set_work_runner(WorkRunner runner);
 /// Whether that was done. Then work had better be cut into many small parts, of which many wait at the same time.
 [[nodiscard]] bool work_waits();
 
-/// Calls work(begin, end) for portions that together are the numbers from 0 to count - 1, on so many threads.
-void run_in_portions(int threads, std::size_t count, std::size_t portion,
-                     const std::function<void(std::size_t, std::size_t)>& work);
+/// Work on the numbers from begin to end - 1; `what` is what it was given to run_in_portions for.
+using PortionWork = void (*)(const void* what, std::size_t begin, std::size_t end);
+
+/// Calls work(what, begin, end) for portions that together are the numbers from 0 to count - 1, on so many threads, or
+/// one for each portion where these are fewer. A single portion is the caller's.
+void run_in_portions(int threads, std::size_t count, std::size_t portion, PortionWork work, const void* what);
 
 /// Calls work(0) to work(count - 1), each once, in any order and on so many threads, which take `portion` numbers at a
 /// time.
 template <typename Work>
 void share_among_threads(int threads, std::size_t count, std::size_t portion, const Work& work) {
-    run_in_portions(threads, count, portion, [&](std::size_t begin, std::size_t end) {
+    const PortionWork on_portion = [](const void* what, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            work(i);
+            (*static_cast<const Work*>(what))(i);
         }
-    });
+    };
+    run_in_portions(threads, count, portion, on_portion, &work);
 }
 
-/// On default_threads() threads. Where there is one portion only, the caller does it alone.
+/// On default_threads() threads.
 template <typename Work>
 void for_each_on_threads(std::size_t count, std::size_t portion, const Work& work) {
-    share_among_threads(count <= portion ? 1 : default_threads(), count, portion, work);
+    share_among_threads(default_threads(), count, portion, work);
 }
 
 /// On the caller's thread alone; many at once where work waits for another program. What it costs does not depend on

@@ -17,6 +17,8 @@ from raysteps.play.packages import new_folder
 
 # Exceptions are the engine's own; floats are as exact as everywhere in the kit, so that pictures are the same.
 _FLAGS = ("-std=c++20", "-DNDEBUG", "-ffp-contract=off", "-fwasm-exceptions", "-mllvm", "-wasm-use-legacy-eh=false")
+# It was made with assertions, and then checks and names all that it makes, for those who work on the compiler.
+_UNCHECKED = ("-fdiscard-value-names", "-Xclang", "-disable-llvm-verifier")
 # A stack as everywhere else, below everything else: one that overflows runs into nothing.
 _STACK = 8 << 20
 _MEMORY = 1 << 30
@@ -153,7 +155,7 @@ class WebClang:
     def compile_command(self, optimise: str, flags: Sequence[str], *, header: bool = False) -> list[str]:
         """What makes OUTPUT of INPUT, without asking a driver again. A `header` is compiled for later."""
         kind = ["-x", "c++-header"] if header else ["-c", "-x", "c++"]
-        return self._command([optimise, *_FLAGS, *flags, *kind, INPUT, "-o", OUTPUT])
+        return self._command([optimise, *_FLAGS, *_UNCHECKED, *flags, *kind, INPUT, "-o", OUTPUT])
 
     def link_command(self) -> list[str]:
         """What makes a program, OUTPUT, of the objects and libraries that stand where INPUT does."""

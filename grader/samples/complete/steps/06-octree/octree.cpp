@@ -24,7 +24,6 @@ constexpr std::size_t k_leaf_size = 8;
 constexpr std::size_t k_max_growth = 4;          // children may hold this many times the parent's surfaces
 constexpr std::uint64_t k_max_references = 24;   // of a surface on average, whatever the scene
 constexpr std::size_t k_enough_surfaces = 4096;  // to be worth several threads
-constexpr std::size_t k_enough_parts = 64;       // that wait to be built, for any number of threads
 
 float diagonal(const Box& box) { return glm::length(box.max - box.min); }
 
@@ -34,7 +33,7 @@ bool separates(const glm::vec3& axis, const std::array<glm::vec3, 3>& corners, c
     const float b = glm::dot(axis, corners[1]);
     const float c = glm::dot(axis, corners[2]);
     const float reach = glm::dot(glm::abs(axis), half);
-    return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
+    return std::min(a, std::min(b, c)) > reach || std::max(a, std::max(b, c)) < -reach;
 }
 
 bool boxes_overlap(const Box& a, const Box& b) {
@@ -50,35 +49,34 @@ struct Part {
     int depth = 0;
 };
 
-/// Hands the surfaces on to the eight parts of the cell and returns those that got any, or makes a leaf.
-std::vector<Part> split_part(Part& part, float padding) {
+/// Hands the surfaces on to the eight parts of the cell, or makes a leaf. Those that got any come first, and each has a
+/// child of the node.
+std::array<Part, 8> split_part(Part& part, float padding) {
     const SurfaceList& surfaces = part.surfaces;
     const Box all = bounds_of(surfaces);  // rays miss a smaller box more often
     part.node->box = Box{glm::max(part.cell.min, all.min), glm::min(part.cell.max, all.max)}.padded(padding);
     if (surfaces.size() > k_leaf_size && part.depth < k_max_depth) {
-        const std::array<Box, 8> cells = split(part.cell);
-        std::array<SurfaceList, 8> lists;
+        std::array<Part, 8> parts;
+        std::size_t used = 0;
         std::size_t references = 0;
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(lists[i]),
-                         [&](const Surface* surface) { return surface->overlaps(cells[i]); });
-            references += lists[i].size();
+        for (const Box& cell : split(part.cell)) {
+            Part& inside = parts[used];
+            inside.cell = cell;
+            inside.depth = part.depth + 1;
+            for (const Surface* surface : surfaces) {
+                if (surface->overlaps(cell)) {
+                    inside.surfaces.push_back(surface);
+                }
+            }
+            references += inside.surfaces.size();
+            used += inside.surfaces.empty() ? 0U : 1U;
         }
         // Where the boxes are already smaller than the surfaces, splitting multiplies lists and sorts nothing out.
         if (references <= std::min<std::uint64_t>(k_max_growth * surfaces.size(), part.most_references)) {
-            std::vector<Part> parts;
-            std::vector<Node>& children = part.node->children;
-            children.reserve(cells.size() -
-                             static_cast<std::size_t>(std::count(lists.begin(), lists.end(), SurfaceList{})));
-            for (std::size_t i = 0; i < cells.size(); ++i) {
-                if (!lists[i].empty()) {
-                    const std::uint64_t share = part.most_references * lists[i].size() / references;
-                    parts.push_back({.node = &children.emplace_back(),
-                                     .cell = cells[i],
-                                     .surfaces = std::move(lists[i]),
-                                     .most_references = share,
-                                     .depth = part.depth + 1});
-                }
+            part.node->children = std::vector<Node>(used);
+            for (std::size_t i = 0; i < used; ++i) {
+                parts[i].node = &part.node->children[i];
+                parts[i].most_references = part.most_references * parts[i].surfaces.size() / references;
             }
             return parts;
         }
@@ -87,46 +85,34 @@ std::vector<Part> split_part(Part& part, float padding) {
     return {};
 }
 
+/// The parts of a large one on all threads.
 void build_below(Part& part, float padding) {
-    std::vector<Part> parts = split_part(part, padding);
+    const bool large = part.surfaces.size() >= k_enough_surfaces;
+    std::array<Part, 8> parts = split_part(part, padding);
     part.surfaces = SurfaceList();
-    for (Part& child : parts) {
-        build_below(child, padding);
-    }
-}
-
-/// Level by level, until there are enough parts for all threads; then each part to its end.
-void build_all(Part root, float padding) {
-    std::vector<Part> parts;
-    const bool small = root.surfaces.size() < k_enough_surfaces;
-    parts.push_back(std::move(root));
-    while (!small && !parts.empty() && parts.size() < k_enough_parts) {
-        std::vector<std::vector<Part>> next(parts.size());
-        for_each_on_threads(parts.size(), 1, [&](std::size_t i) { next[i] = split_part(parts[i], padding); });
-        parts.clear();
-        for (std::vector<Part>& some : next) {
-            std::move(some.begin(), some.end(), std::back_inserter(parts));
+    const std::size_t used = part.node->children.size();
+    const auto build_one = [&](std::size_t i) { build_below(parts[i], padding); };
+    if (large) {
+        for_each_on_threads(used, 1, build_one);
+    } else {
+        for (std::size_t i = 0; i < used; ++i) {
+            build_one(i);
         }
     }
-    for_each_on_threads(parts.size(), 1, [&](std::size_t i) { build_below(parts[i], padding); });
 }
 
-/// Surfaces so large that they would stretch the boxes over everything else: a ground under a flake of spheres.
-SurfaceList oversized(const SurfaceList& surfaces) {
+/// Surfaces larger than this would stretch the boxes over everything else: a ground under a flake of spheres.
+float largest_below(const SurfaceList& surfaces) {
     constexpr float k_share_of_scene = 0.25F;
     constexpr float k_times_median = 20.0F;
-    constexpr std::size_t k_most = 8;
-    std::vector<float> sizes;
-    for (const Surface* surface : surfaces) {
-        sizes.push_back(diagonal(surface->bounds()));
+    const std::size_t step = 1 + surfaces.size() / 1024;  // a thousand of them tell the median well enough
+    std::vector<float> sizes((surfaces.size() + step - 1) / step);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        sizes[i] = diagonal(surfaces[i * step]->bounds());
     }
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    const float limit = std::max(k_share_of_scene * diagonal(bounds_of(surfaces)), k_times_median * *middle);
-    SurfaceList large;
-    std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(large),
-                 [limit](const Surface* surface) { return diagonal(surface->bounds()) > limit; });
-    return large.size() <= k_most ? large : SurfaceList{};
+    std::sort(sizes.begin(), sizes.end());
+    const float median = sizes[sizes.size() / 2];
+    return std::max(k_share_of_scene * diagonal(bounds_of(surfaces)), k_times_median * median);
 }
 
 /// Shortens the part of the ray to what is inside the box. Along an axis whose direction is 0 the distances are
@@ -163,7 +149,7 @@ struct Search {
     void test(const SurfaceList& surfaces) {
         for (const Surface* surface : surfaces) {
             const std::optional<HitRecord> found = surface->hit(ray);
-            if (found && std::pair(found->distance, surface->order()) < std::pair(distance, order)) {
+            if (found && (found->distance < distance || (found->distance == distance && surface->order() < order))) {
                 hit = found;
                 distance = found->distance;
                 order = surface->order();
@@ -272,11 +258,17 @@ Node build_octree(const SurfaceList& surfaces) {
     if (surfaces.empty()) {
         return {};
     }
-    const SurfaceList large = oversized(surfaces);
+    constexpr std::size_t k_most_above = 8;
+    const float limit = largest_below(surfaces);
+    SurfaceList large;
     SurfaceList others;
-    std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(others), [&large](const Surface* surface) {
-        return std::find(large.begin(), large.end(), surface) == large.end();
-    });
+    for (const Surface* surface : surfaces) {
+        (diagonal(surface->bounds()) > limit ? large : others).push_back(surface);
+    }
+    if (large.size() > k_most_above) {
+        large.clear();
+        others = SurfaceList(surfaces);
+    }
     const Box all = bounds_of(surfaces);
     const float padding = padding_within(all);
     Node root{.box = all.padded(padding), .surfaces = large, .children = {}};
@@ -286,9 +278,9 @@ Node build_octree(const SurfaceList& surfaces) {
         const Box box{tight.min - 4.0F * padding, tight.max + 8.0F * padding};
         const std::uint64_t most_references = k_max_references * others.size();
         Node* const below = &root.children.emplace_back();
-        build_all(
-            {.node = below, .cell = box, .surfaces = std::move(others), .most_references = most_references, .depth = 0},
-            padding);
+        Part part{
+            .node = below, .cell = box, .surfaces = std::move(others), .most_references = most_references, .depth = 0};
+        build_below(part, padding);
     }
     return root;
 }
