@@ -113,6 +113,7 @@ class _Kit:
 
     def _run(self, words: Sequence[str]) -> int:
         if "venv" in words:
+            (self.root / ".venv").mkdir(exist_ok=True)
             (self.root / ".venv" / "raysteps-stamp").unlink(missing_ok=True)
             self.ran.append("new")
         elif "pip" in words:
@@ -134,6 +135,20 @@ def test_sets_are_installed_when_they_are_first_needed(tmp_path: Path, monkeypat
     assert kit.type("docs") == kit.type("list") == []
     (kit.root / "grader" / "pyproject.toml").write_text("# other versions")
     assert kit.type("list") == ["new", "/grader[dev,instructor]"]
+
+
+def test_another_kits_packages_are_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    others = _Kit(tmp_path / "others", monkeypatch)
+    assert others.type("list") == ["new", "/grader"]
+    kit = _Kit(tmp_path / "kit", monkeypatch)
+    (kit.root / ".venv").rmdir()
+    try:
+        (kit.root / ".venv").symlink_to(others.root / ".venv", target_is_directory=True)
+    except OSError:
+        pytest.skip("this user may make no links")
+    assert kit.type("list") == ["new", "/grader"]
+    assert not (kit.root / ".venv").is_symlink()
+    assert (others.root / ".venv" / "raysteps-stamp").is_file()
 
 
 def test_a_fresh_clone_is_tested_in_one_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

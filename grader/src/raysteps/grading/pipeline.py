@@ -349,9 +349,10 @@ def grade_submission(
                 HiddenStepGrader(work, step, kit.limits_of(step, settings.limits), compiled, settings, apart)
                 for step in chosen
             ]
-            alone = list(pool.map(HiddenStepGrader.grade, graders))
+            order = -1 if jobs > 1 else 1  # late steps take longest: first, they leave nobody idle at the end
+            alone = list(pool.map(HiddenStepGrader.grade, graders[::order]))
             right = {result.id for result in alone if is_right(result)}
-            steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders))
+            steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders[::order]))[::order]
             if counted.is_spent:
                 _tell_of_the_limit(steps, together)
             name_crash(steps)

@@ -6,10 +6,11 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
+from typing import TypeVar
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_json
@@ -87,9 +88,17 @@ def _slowness(project: Project, folder: Path) -> float:
 
 # Puts one kit folder together from what CMake built.
 
-_COMPILERS = 4  # at a time; each takes some hundred megabytes
+T = TypeVar("T")
+U = TypeVar("U")
+
+_COMPILERS = 4  # and linkers at a time; each takes some hundred megabytes
 _NOT_FOR_STEPS = "t_stats"  # the counters: a step is counted, it does not count
 _FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "precompiled", "rest", "steps")
+
+
+def _several_at_a_time(work: Callable[[T], U], items: Iterable[T]) -> list[U]:
+    with ThreadPoolExecutor(min(_COMPILERS, os.cpu_count() or 1)) as pool:
+        return list(pool.map(work, items))
 
 
 def up_to_last(project: Project, graded: Sequence[Step]) -> list[Step]:
@@ -130,7 +139,8 @@ class Assembly:
             defined = symbols_of(self._description.seal.nm, core).defined
             self._core_names = {name for name in defined if _NOT_FOR_STEPS not in name}
         for step in self._steps:
-            self._add_step(step)
+            self._copy_step(step)
+        _several_at_a_time(self._add_step, self._steps)
         self._write_known()
         self._write_rest("libraries", [*self._others, self._core])
         tests = self._add_programs(say) if self._project.has_reference else self._add_own_programs(say)
@@ -142,8 +152,6 @@ class Assembly:
         write_json(self._folder / "facts.json", {"interpreter": loader, "slowness": slowness, "tests": tests})
 
     def _precompile(self, say: ProgressCallback) -> None:
-        """Several at a time."""
-
         def one(step: Step) -> None:
             say(f"compiling the headers of step {step.number} for later")
             headers = included(pristine_stub(self._project, step))
@@ -152,30 +160,33 @@ class Assembly:
                     self._description, self._folder / "include", headers, self._folder / "precompiled", step.file
                 )
 
-        with ThreadPoolExecutor(min(_COMPILERS, os.cpu_count() or 1)) as pool:
-            list(pool.map(one, self._graded))
+        _several_at_a_time(one, self._graded)
 
     def _add_programs(self, say: ProgressCallback) -> Tests:
         """Around each step by itself, and around all up to one."""
         raytrace = [self._copy(path) for path in self._description.raytrace]
         worker = [self._copy(path) for path in self._description.worker]
         more = [path if ".so" in path.suffixes else self._copy(path) for path in self._description.wide]
-        self._link_reference("raytrace", [*raytrace, *more])
-        self._link_reference("worker", worker)
         self._write_rest("raytrace", raytrace)
         self._write_rest("worker", worker)
-        tests: dict[str, dict[str, list[str]]] = {}
-        for step in self._graded:
+        _several_at_a_time(lambda one: self._link_reference(*one), [("raytrace", raytrace + more), ("worker", worker)])
+        tests = {step.number: self._copy_tests(step) for step in self._graded}
+
+        def add(step: Step) -> dict[str, list[str]]:
             say(f"linking the programs of step {step.number}")
-            objects = [self._copy(path) for path in self._description.tests[step.number]]
-            self._write_rest(f"test-{step.number}", objects)
-            self._link_reference(f"test-{step.number}", objects)
+            self._link_reference(f"test-{step.number}", tests[step.number])
             listed = list_tests(executable(self._folder / "bin" / f"test-{step.number}"))
-            tests[step.id] = {name: tested_functions(step, name, tags) for name, tags in listed.items()}
             together = up_to(step, self._graded)
             if not self._add_remote(together):
-                self._add_plain(raytrace, worker, objects, together)
-        return tests
+                self._add_plain(raytrace, worker, tests[step.number], together)
+            return {name: tested_functions(step, name, tags) for name, tags in listed.items()}
+
+        return dict(zip([step.id for step in self._graded], _several_at_a_time(add, self._graded), strict=True))
+
+    def _copy_tests(self, step: Step) -> list[Path]:
+        objects = [self._copy(path) for path in self._description.tests[step.number]]
+        self._write_rest(f"test-{step.number}", objects)
+        return objects
 
     def _add_remote(self, up_to: list[Step]) -> bool:
         """Programs that ask the last step, and those that ask all of them; none where one of them cannot be asked."""
@@ -201,12 +212,15 @@ class Assembly:
     def _add_own_programs(self, say: ProgressCallback) -> Tests:
         """In a students' kit: all steps up to one are the student's, and those after it are stubs."""
         raytrace = [self._copy(path) for path in self._description.raytrace]
-        for at, step in enumerate(self._up_to_last, start=1):
+        tests = {step.number: self._copy_tests(step) for step in self._up_to_last}
+
+        def add(step: Step) -> None:
             say(f"linking the programs of step {step.number}")
-            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, self._up_to_last[:at])
-            objects = [self._copy(path) for path in self._description.tests[step.number]]
-            self._write_rest(f"test-{step.number}", objects)
-            self._add_program(f"test-cumulative-{step.number}", objects, self._up_to_last[:at])
+            own = [other for other in self._up_to_last if other.index <= step.index]
+            self._add_program(f"raytrace-cumulative-{step.number}", raytrace, own)
+            self._add_program(f"test-cumulative-{step.number}", tests[step.number], own)
+
+        _several_at_a_time(add, self._up_to_last)
         return read_given_tests(self._project)
 
     def _write_known(self) -> None:
@@ -231,21 +245,25 @@ class Assembly:
             for header in (self._project.steps / step.id).glob("*.hpp"):
                 write_bytes(include / "steps" / step.id / header.name, header.read_bytes())
 
-    def _add_step(self, step: Step) -> None:
+    def _copy_step(self, step: Step) -> None:
         built = self._description.steps[step.number]
         copied = self._objects[step.number] = self._folder / "parts" / "references" / f"{step.number}.o"
         copied.parent.mkdir(exist_ok=True)
         shutil.copyfile(built, copied)
-        steps = self._folder / "steps"
-        tools = self._description.seal
+        if self._description.seal is not None:
+            self._kept[step.number] = Path(f"{built}.keep").read_text("utf-8").split()
+
+    def _add_step(self, step: Step) -> None:
+        """The reference's, as a library where there are such."""
+        steps, copied, tools = self._folder / "steps", self._objects[step.number], self._description.seal
         if tools is None:
-            shutil.copyfile(built, steps / f"{step.number}.o")
+            shutil.copyfile(copied, steps / f"{step.number}.o")
             return
-        kept = self._kept[step.number] = Path(f"{built}.keep").read_text("utf-8").split()
+        kept = self._kept[step.number]
         exports = steps / f"{step.number}.map"
         write_bytes(exports, version_script(kept))
         link(self._description, [*library_flags(step.number), exports, copied], steps / library_name(step.number))
-        names = readable_names(tools.nm, self._objects[step.number])
+        names = readable_names(tools.nm, copied)
         write_json(steps / f"{step.number}.names.json", {name: names[name] for name in kept})
         earlier = [other.number for other in self._steps if other.index <= step.index]
         allowed = self._core_names.union(*(self._kept[number] for number in earlier))
