@@ -16,6 +16,11 @@ std::atomic<int>& chosen_threads() {
     return count;
 }
 
+std::atomic<int>& taken_threads() {
+    static std::atomic<int> count{0};
+    return count;
+}
+
 std::atomic<WorkRunner>& chosen_runner() {
     static std::atomic<WorkRunner> runner{nullptr};
     return runner;
@@ -66,12 +71,25 @@ void run_on_threads(int count, const std::function<void()>& work) {
 
 void run_in_portions(int threads, std::size_t count, std::size_t portion, PortionWork work, const void* what) {
     const std::size_t portions = (count + portion - 1) / portion;
+    const auto most = static_cast<std::size_t>(std::max(1, threads));
     std::atomic<std::size_t> next{0};
-    run_on_threads(static_cast<int>(std::min(portions, static_cast<std::size_t>(threads))), [&] {
+    run_on_threads(static_cast<int>(std::min(portions, most)), [&] {
         for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
             work(what, begin, std::min(begin + portion, count));
         }
     });
 }
+
+SpareThreads::SpareThreads(std::size_t most) {
+    int taken = taken_threads();
+    int count = 0;
+    do {
+        const int left = std::max(0, default_threads() - 1 - taken);
+        count = static_cast<int>(std::min(static_cast<std::size_t>(left), most));
+    } while (!taken_threads().compare_exchange_weak(taken, taken + count));
+    count_ = count;
+}
+
+SpareThreads::~SpareThreads() { taken_threads() -= count_; }
 
 }  // namespace raysteps

@@ -23,8 +23,8 @@ void set_work_runner(WorkRunner runner);
 /// Work on the numbers from begin to end - 1; `what` is what it was given to run_in_portions for.
 using PortionWork = void (*)(const void* what, std::size_t begin, std::size_t end);
 
-/// Calls work(what, begin, end) for portions that together are the numbers from 0 to count - 1, on so many threads, or
-/// one for each portion where these are fewer. A single portion is the caller's.
+/// Calls work(what, begin, end) for portions, not of size 0, that together are the numbers from 0 to count - 1, on so
+/// many threads, or one for each portion where these are fewer. A single portion is the caller's.
 void run_in_portions(int threads, std::size_t count, std::size_t portion, PortionWork work, const void* what);
 
 /// Calls work(0) to work(count - 1), each once, in any order and on so many threads, which take `portion` numbers at a
@@ -39,10 +39,25 @@ void share_among_threads(int threads, std::size_t count, std::size_t portion, co
     run_in_portions(threads, count, portion, on_portion, &work);
 }
 
-/// On default_threads() threads.
+/// Threads that nobody else has for as long as this lives, so many at most: of default_threads(), without the caller's.
+class SpareThreads {
+public:
+    explicit SpareThreads(std::size_t most);
+    ~SpareThreads();
+    SpareThreads(const SpareThreads&) = delete;
+    SpareThreads& operator=(const SpareThreads&) = delete;
+    [[nodiscard]] int count() const { return count_; }
+
+private:
+    int count_ = 0;
+};
+
+/// On the caller's thread and those to spare: in work that calls this again there are never more than
+/// default_threads() in all.
 template <typename Work>
 void for_each_on_threads(std::size_t count, std::size_t portion, const Work& work) {
-    share_among_threads(default_threads(), count, portion, work);
+    const SpareThreads spare((count + portion - 1) / portion);
+    share_among_threads(1 + spare.count(), count, portion, work);
 }
 
 /// On the caller's thread alone; many at once where work waits for another program. What it costs does not depend on

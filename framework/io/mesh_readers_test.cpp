@@ -110,6 +110,11 @@ TEST_CASE("bad PLY files", "[ply][errors]") {
           "`property quad x`");
     CHECK(ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float nx\nelement vertex 1\n") ==
           "bad.ply:5:1: expected an element of another name than those before, found `element vertex 1`");
+    std::string many = "ply\nformat ascii 1.0\n";
+    for (int i = 0; i < 101; ++i) {
+        many += "element e" + std::to_string(i) + " 0\n";
+    }
+    CHECK(ply_error(many) == "bad.ply:103:1: expected 100 kinds of elements at most, found `element e100 0`");
     CHECK(ply_error("ply\nformat ascii 1.0\n") == "bad.ply:3:1: expected `end_header`, found nothing");
     CHECK(ply_error(k_text_head + "0 0 0\n1 0 zero\n") == "bad.ply: vertex 1: expected a coordinate, found `zero`");
     CHECK(ply_error(k_text_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") ==

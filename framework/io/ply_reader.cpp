@@ -129,6 +129,8 @@ private:
     std::string element_ = "body";
 };
 
+constexpr std::size_t k_most_elements = 100;
+
 bool is_known(std::string_view element) { return element == "vertex" || element == "face"; }
 
 class PlyReader {
@@ -224,6 +226,9 @@ private:
         }
         if (std::any_of(elements_.begin(), elements_.end(), [&](const Element& one) { return one.name == words[1]; })) {
             fail("an element of another name than those before", line);
+        }
+        if (elements_.size() == k_most_elements) {
+            fail("100 kinds of elements at most", line);
         }
         elements_.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
     }

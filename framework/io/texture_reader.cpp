@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "io/files.hpp"
 
@@ -80,7 +81,7 @@ std::optional<std::string> with_sound_chunks(std::string_view png) {
         }
         at += k_around + length;
     }
-    return at + k_head > png.size() ? std::optional(sound) : std::nullopt;
+    return at + k_head > png.size() ? std::optional(std::move(sound)) : std::nullopt;
 }
 
 /// The JPEG with all eight Huffman tables defined at its start, by one code each; its own take their places. stb_image

@@ -36,7 +36,7 @@ bool separates(const glm::vec3& axis, const std::array<glm::vec3, 3>& corners, c
     const float b = glm::dot(axis, corners[1]);
     const float c = glm::dot(axis, corners[2]);
     const float reach = glm::dot(glm::abs(axis), half);
-    return std::min(a, std::min(b, c)) > reach || std::max(a, std::max(b, c)) < -reach;
+    return (a > reach && b > reach && c > reach) || (a < -reach && b < -reach && c < -reach);
 }
 
 bool boxes_overlap(const Box& a, const Box& b) {

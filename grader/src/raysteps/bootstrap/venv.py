@@ -116,10 +116,10 @@ class Venv:
 
     def make(self, wanted: str = "") -> None:
         """Anew, with the usual set, the one that is wanted and those that were there before."""
-        sets = self._usual() | self._installed()[1] | (set() if self.has(wanted) else {wanted})
-        say(f"setting up the Python part in .venv (once, {_TAKES[MAKER in sets]})")
         if self.folder.is_symlink():
             self.folder.unlink()  # venv would empty what it leads to, which may be another kit's, and then refuse it
+        sets = self._usual() | self._installed()[1] | (set() if self.has(wanted) else {wanted})
+        say(f"setting up the Python part in .venv (once, {_TAKES[MAKER in sets]})")
         words = [getattr(sys, "_base_executable", sys.executable), "-m", "venv", "--clear", str(self.folder)]
         if _run(words) != 0:
             raise CannotSetUp(f"{self.folder} cannot be made; the lines above say why")

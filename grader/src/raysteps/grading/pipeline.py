@@ -332,7 +332,8 @@ def grade_submission(
 ) -> Results:
     """Writes out/results.json, without what `settings.feedback` withholds, and out/pictures/; returns everything. What
     goes wrong in a step costs that step only; where it was the grader that failed in one, GraderFault says so when all
-    is written. So many `jobs` are done at a time; that changes a grade only where a step is near its time limit.
+    is written. So many `jobs` are done at a time; that changes a grade only where a step is near its time limit, or
+    where all programs together use theirs up.
     `course` is the name that results.json tells. `name_crash` may add to messages where a test crashed. Where known
     mistakes have to be learned, the results are written before, or `tell` gets them: nobody waits for names."""
     start = time.monotonic()
