@@ -6,7 +6,9 @@ import select
 import signal
 import sys
 import tempfile
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from raysteps.classroom.jobs import gave_up
@@ -17,14 +19,37 @@ _PR_SET_PDEATHSIG = 1
 _GRACE_SECONDS = 2.0  # to tidy up after Ctrl-C, which both processes hear
 
 
+@contextmanager
+def _signals() -> Iterator[int]:
+    """A file that can be read as soon as a signal has come: one that comes just before a wait would not end it."""
+    heard, said = os.pipe()
+    os.set_blocking(said, False)
+    before = signal.set_wakeup_fd(said, warn_on_full_buffer=False)
+    try:
+        yield heard
+    finally:
+        signal.set_wakeup_fd(before)
+        os.close(said)
+        os.close(heard)
+
+
 def _is_over(end: int, seconds: float) -> bool:
     """Whether the other process has ended, or ends within that time."""
-    return bool(select.select([end], [], [], seconds)[0])
+    give_up = time.monotonic() + seconds
+    with _signals() as signals:
+        ready: list[int] = [signals]
+        while ready == [signals]:
+            ready = select.select([end, signals], [], [], max(0.0, give_up - time.monotonic()))[0]
+            if signals in ready:
+                os.read(signals, 1)
+    return end in ready
 
 
-def _wait(end: int, seconds: float) -> bool:
-    """False where time was up; KeyboardInterrupt where somebody does not want to wait."""
+def _wait(end: int, seconds: float, blocked: Collection[int]) -> bool:
+    """False where time was up; KeyboardInterrupt where somebody does not want to wait: from here on, unless `blocked`
+    has it."""
     try:
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
         return _is_over(end, seconds)
     except KeyboardInterrupt:
         if _is_over(end, _GRACE_SECONDS):
@@ -39,16 +64,18 @@ def supervised(work: Callable[[], int], seconds: float) -> int:
         return work()
     scratch = Path(tempfile.mkdtemp(prefix="raysteps-grade-"))
     end, held = os.pipe()
+    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # what Python does at a fork would swallow it
     child = os.fork()
     if child == 0:
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
         os.close(end)
         scratch.chmod(0o711)  # a sandbox may run as another user
         tempfile.tempdir = os.environ["TMPDIR"] = str(scratch)
         return work()  # `held` stays open until the process has ended
-    os.close(held)
     try:
-        if not _wait(end, seconds):
+        os.close(held)
+        if not _wait(end, seconds, blocked):
             raise GraderFault(gave_up(seconds))
     finally:
         end_tree(child)
