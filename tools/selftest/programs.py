@@ -125,10 +125,10 @@ def build(tree: BuildTree, targets: list[str]) -> Report:
     return Report("passed") if outcome.code == 0 else Report("failed", what_failed(outcome))
 
 
-def _program(tree: BuildTree, name: str, *args: str | Path) -> Report:
-    """Builds the program, so that an old one never passes for a new one, and runs it."""
+def _program(tree: BuildTree, name: str, *args: str | Path, by: Sequence[str] = ()) -> Report:
+    """Builds the program, so that an old one never passes for a new one, and runs it, or has it run `by` another."""
     built = build(tree, [name])
-    return command([tree.program(name), *args], tree.project.root) if built.verdict == "passed" else built
+    return command([*by, tree.program(name), *args], tree.project.root) if built.verdict == "passed" else built
 
 
 def build_check(name: str, tree: BuildTree, targets: list[str], inputs: Inputs) -> Check:
@@ -192,12 +192,9 @@ def _fuzz(project: Project, tree: BuildTree) -> Report:
     words = [f"-runs={_FUZZ_RUNS}", "-seed=1", "-reload=0", "-detect_leaks=0"]  # leaks are looked for at the end
     words += ["-timeout=10", "-rss_limit_mb=2048", "-print_final_stats=1"]
     words += [f"-seed_inputs={seeds}", f"-artifact_prefix={found.parent}/"]
-    built = build(tree, ["fuzz-readers"])
-    if built.verdict != "passed":
-        return built
     fixed = ["setarch", "-R"]
     same_addresses = shutil.which("setarch") and run([*fixed, "true"], seconds=_TEST_SECONDS).code == 0
-    return command([*(fixed if same_addresses else []), tree.program("fuzz-readers"), found, *words], project.root)
+    return _program(tree, "fuzz-readers", found, *words, by=fixed if same_addresses else ())
 
 
 def fuzz_checks(project: Project, inputs: Inputs) -> list[Check]:
