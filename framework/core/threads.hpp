@@ -56,7 +56,7 @@ private:
 /// default_threads() in all.
 template <typename Work>
 void for_each_on_threads(std::size_t count, std::size_t portion, const Work& work) {
-    const SpareThreads spare((count + portion - 1) / portion);
+    const SpareThreads spare(count == 0 ? 0 : (count - 1) / portion);  // one portion is the caller's
     share_among_threads(1 + spare.count(), count, portion, work);
 }
 
