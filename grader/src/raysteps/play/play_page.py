@@ -164,7 +164,9 @@ def _system(clang: WebClang, kit: WebKit, project: Project) -> dict[str, bytes]:
     for path in (kit.libraries / "glm").rglob("*"):
         if path.suffix in (".hpp", ".h", ".inl"):
             found[f"libraries/{path.relative_to(kit.libraries).as_posix()}"] = path.read_bytes()
-    own = [*project.root.glob("framework/core/*.hpp"), *project.steps.glob("[0-9][0-9]-*/*.hpp")]
+    framework = project.root / "framework"
+    own = [*framework.glob("core/*.hpp"), *framework.glob("web/ahead/*.hpp")]
+    own += project.steps.glob("[0-9][0-9]-*/*.hpp")
     return found | {f"kit/{path.relative_to(project.root).as_posix()}": path.read_bytes() for path in own}
 
 
@@ -260,13 +262,13 @@ class PlayPage:
 
     def _compiled(self, step: Step) -> dict[str, Any]:
         includes = first_includes(pristine_stub(self._project, step))
-        made = self._kit.headers(step, includes)
-        name = self._add(f"steps/{step.number}.pch.gz", _squeezed(made))
+        text = self._kit.headers_text(step, includes)
+        name = self._add(f"steps/{step.number}.pch.gz", _squeezed(self._kit.headers(step, text)))
         source = f"/kit/steps/{step.path.as_posix()}"
         return {
             "number": step.number,
             "source": source,
-            "headers": {"includes": includes, "file": name, "path": headers_path(step)},
+            "headers": {"includes": includes, "text": text, "file": name, "path": headers_path(step)},
         }
 
     def _figure(self, path: str) -> str:

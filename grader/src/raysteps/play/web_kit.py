@@ -37,6 +37,7 @@ _MAIN = "-Dmain="
 _WEB = "framework/web"
 _EXCEPTIONS = f"{_WEB}/exceptions.cpp"  # which all programs need
 _PAGE_MAIN, _FIGURES_MAIN = f"{_WEB}/main.cpp", f"{_WEB}/figures_main.cpp"
+_AHEAD = "web/ahead"  # what is compiled with some headers of core/, under their names
 # Of a student's step, for which somebody waits: -O2 takes a sixth longer, and the pictures take no less.
 _OWN_LEVEL = "-O1"
 _TEST_MAIN, _RAYTRACE = f"{_MAIN}test_main", (_QUIET, f"{_MAIN}raytrace_main")
@@ -123,6 +124,7 @@ class Sources:
         return [*outside, *fetched, *map(Path, _USUAL_FOLDERS)]
 
 
+_OF_CORE = re.compile(r'#include "core/(\w+\.hpp)"')
 _ASKED = re.compile(r"""include\s*\(?\s*[<"]([^">]+)[">]""")  # by #include and by __has_include
 
 
@@ -358,10 +360,17 @@ class WebKit:
         """How a student's step is compiled."""
         return [*self._commands[_OWN_LEVEL, False], *_INCLUDES, *_WARNINGS, "-fno-caret-diagnostics"]
 
-    def headers(self, step: Step, includes: str) -> Path:
-        """What the first lines of a source include, as the compiler keeps it in memory. No more than these: a header
-        that is missing is missed in the page as everywhere."""
-        return self._compiled("pch", self.headers_command(), headers_path(step), includes)
+    def headers_text(self, step: Step, includes: str) -> str:
+        """What is compiled ahead of a source with these first lines. No more names than they bring: a header that is
+        missing is missed in the page as everywhere."""
+        contracts = sorted((self._project.steps / step.id).glob("*.hpp"))
+        names = [name for path in contracts for name in _OF_CORE.findall(path.read_text("utf-8"))]
+        ahead = [name for name in names if (self._project.root / "framework" / _AHEAD / name).is_file()]
+        return "".join([includes, *(f'#include "{_AHEAD}/{name}"\n' for name in ahead)])
+
+    def headers(self, step: Step, text: str) -> Path:
+        """This text, as the compiler keeps it in memory."""
+        return self._compiled("pch", self.headers_command(), headers_path(step), text)
 
     def headers_command(self) -> list[str]:
         """How these are compiled; the page does it, too, when a student includes something else."""

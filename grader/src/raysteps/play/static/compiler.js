@@ -70,7 +70,7 @@ async function prepare(message) {
 async function headersOfStub(step) {
   const path = `${step.headers.path}.pch`;
   if (!stubs.has(step.number)) {
-    files.write(step.headers.path, new TextEncoder().encode(step.headers.includes));
+    files.write(step.headers.path, new TextEncoder().encode(step.headers.text));
     files.write(path, await bytesOf(step.headers.file));
     stubs.add(step.number);
   }
