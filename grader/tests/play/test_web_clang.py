@@ -177,3 +177,14 @@ def test_it_tells_which_headers_it_has_read(clang: WebClang, project: Project) -
     (own,) = [names for names in read if wanted.source.path in names]
     assert {"framework/render/encode.hpp", "framework/core/scene.hpp", "framework/core/ray.hpp"} <= set(own)
     assert "framework/io/nff_reader.hpp" not in own
+
+
+def test_what_trees_do_with_lists_is_compiled_ahead(clang: WebClang, project: Project) -> None:
+    """Where a contract has the boxes of a tree; all that lies ready is taken by some step."""
+    page = WebKit(project, clang)
+    texts = {step.number: page.headers_text(step, "#include <vector>\n") for step in page.steps}
+    assert texts["01"] == "#include <vector>\n"
+    assert texts["06"] == '#include <vector>\n#include "web/ahead/node.hpp"\n'
+    every = "".join(texts.values())
+    ready = {path.name for path in (project.root / "framework" / "web" / "ahead").iterdir()} - {"lists.hpp"}
+    assert ready == {name for name in ready if f'"web/ahead/{name}"' in every}
