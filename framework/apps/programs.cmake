@@ -69,4 +69,5 @@ if(sources)  # a students' kit has no judge
     add_library(worker-app OBJECT ${sources} ${RAYSTEPS_OWN_WORKERS})
     target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
     raysteps_precompile(framework worker-app)
+    raysteps_unite(worker-app)
 endif()

@@ -6,11 +6,10 @@
 #include <numeric>
 
 #include "io/files.hpp"
+#include "io/numbers.hpp"
 
 namespace raysteps {
 namespace {
-
-bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
 /// Such as --step; -5 is a number.
 bool looks_like_option(const std::string& word) {

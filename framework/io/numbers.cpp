@@ -18,8 +18,6 @@ namespace {
 constexpr std::size_t k_longest_number = 100;
 constexpr std::size_t k_longest_whole = 9;
 
-bool is_digit(char character) { return character >= '0' && character <= '9'; }
-
 std::size_t skip_digits(std::string_view text, std::size_t from) {
     while (from < text.size() && is_digit(text[from])) {
         ++from;

@@ -6,6 +6,9 @@
 
 namespace raysteps {
 
+/// Of the ten, whatever the locale.
+[[nodiscard]] inline bool is_digit(char character) { return character >= '0' && character <= '9'; }
+
 /// A decimal number such as `1`, `-2.5`, `+1`, `.5`, `5.` or `1e-3`, of at most 100 characters. Nothing for any
 /// other text, `nan`, `inf` and hexadecimal included. Infinity when it is too large for a double.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);

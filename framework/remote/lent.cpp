@@ -181,16 +181,17 @@ bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
     return Groups::all().lent({group, index}).overlaps(box);
 }
 
-[[maybe_unused]] const bool offered = offer_function<&closest_hit_of>(FunctionId::lent_closest_hit) &&
-                                      offer_function<&occluded_of>(FunctionId::lent_occluded) &&
-                                      offer_function<&direct_lighting_of>(FunctionId::lent_direct_lighting) &&
-                                      offer_function<&trace_of>(FunctionId::lent_trace) &&
-                                      offer_function<&light_sample_of>(FunctionId::lent_light_sample) &&
-                                      offer_function<&scatter_of>(FunctionId::lent_scatter) &&
-                                      offer_function<&direct_samples_of>(FunctionId::lent_direct_samples) &&
-                                      offer_function<&light_pdf_of>(FunctionId::lent_light_pdf) &&
-                                      offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
-                                      offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
+[[maybe_unused]] const bool offered_one_by_one =
+    offer_function<&closest_hit_of>(FunctionId::lent_closest_hit) &&
+    offer_function<&occluded_of>(FunctionId::lent_occluded) &&
+    offer_function<&direct_lighting_of>(FunctionId::lent_direct_lighting) &&
+    offer_function<&trace_of>(FunctionId::lent_trace) &&
+    offer_function<&light_sample_of>(FunctionId::lent_light_sample) &&
+    offer_function<&scatter_of>(FunctionId::lent_scatter) &&
+    offer_function<&direct_samples_of>(FunctionId::lent_direct_samples) &&
+    offer_function<&light_pdf_of>(FunctionId::lent_light_pdf) &&
+    offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
+    offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
 
 PlaceInGroup place_of(const Surface& copy) {
     const PlaceInGroup* place = Groups::all().place_of(&copy);

@@ -71,7 +71,7 @@ std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<s
     return hits;
 }
 
-[[maybe_unused]] const bool offered =
+[[maybe_unused]] const bool offered_ahead =
     offer(FunctionId::lent_boxes, serve_boxes) && offer_function<&hits_of>(FunctionId::lent_surface_hits);
 
 template <typename T>

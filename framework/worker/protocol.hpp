@@ -1,6 +1,7 @@
 #pragma once
 // The text that the worker reads and writes: words and numbers between blanks, and the kit's values as such numbers.
 // The judge's protocol.py writes and reads the same order.
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +15,10 @@
 #include "core/light.hpp"
 
 namespace raysteps {
+
+/// What a tree may have at most to be told; judge/octrees.py and judge/bvhs.py know the same numbers.
+inline constexpr std::size_t k_max_nodes = 5000;
+inline constexpr std::size_t k_max_entries = 50000;  ///< of the lists in all leaves together
 
 /// A case that nobody can run: the judge's mistake, not the student's.
 class ProtocolError : public std::runtime_error {

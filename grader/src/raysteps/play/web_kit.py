@@ -90,6 +90,13 @@ def _folders(words: Sequence[str]) -> list[str]:
     return [folder.strip('"') for folder in joined]
 
 
+def _one_by_one(file: Path) -> list[Path]:
+    """The sources that CMake has put together (cmake/unity.cmake), or the file itself."""
+    if file.parent.name != "Unity":
+        return [file]
+    return [Path(name) for name in re.findall(r'^#include "(.+)"$', file.read_text("utf-8"), re.MULTILINE)]
+
+
 class Sources:
     """What CMake has found, so that nothing is listed twice: from its list of commands."""
 
@@ -99,7 +106,8 @@ class Sources:
             tree.configure(again=True)  # only a build looks for new sources by itself
         self._root = project.root.resolve()
         text = (tree.folder / "compile_commands.json").read_text(encoding="utf-8")
-        self._entries = [(Path(entry["file"]), _words_of(entry)) for entry in json.loads(text)]
+        entries = [(Path(entry["file"]), _words_of(entry)) for entry in json.loads(text)]
+        self._entries = [(path, words) for file, words in entries for path in _one_by_one(file)]
 
     def of(self, target: str) -> list[Source]:
         """The sources of one of CMake's targets, none where there is no such target."""
