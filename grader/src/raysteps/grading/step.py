@@ -228,6 +228,7 @@ def compile_steps(
     """Each chosen step that was started."""
     sources = {step: work.source(step) for step in chosen}
     started = [(step, source) for step, source in sources.items() if source is not None]
+    started.sort(key=lambda item: -len(item[1]))  # what takes longest first: it leaves nobody idle at the end
 
     def compile_one(item: tuple[Step, str]) -> Compiled:
         step, source = item
