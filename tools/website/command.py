@@ -86,9 +86,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     out: Path = (arguments.out or project.build / "site").absolute()
     _check(project, out, arguments)
     check_tools()
-    live = make_live_figures(project, registry_of(None), console.print) if arguments.live else None
     troubles = _troubles(project)
     if not troubles:
+        live = make_live_figures(project, registry_of(None), console.print) if arguments.live else None
         pages = {COMMANDS_PAGE: command_page(project, new_parser(project)), **api_pages(project)}
         asked = {GALLERY: arguments.gallery, PLAY: arguments.play}
         made_before = {page: folder for page, folder in asked.items() if folder is not None}
