@@ -154,3 +154,15 @@ def assert_no_sideways_scrolling(page: "Page") -> None:
     """A page may be long; it may not be wider than the screen."""
     wide = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
     assert wide <= 0, f"the page is {wide} pixels too wide"
+
+
+_SMALL = """least => [...document.querySelectorAll('button, select, input, summary, [role=slider]')]
+    .filter(one => one.checkVisibility({ visibilityProperty: true }) && !one.closest('.hidden-text'))
+    .map(one => [one, one.getBoundingClientRect()])
+    .filter(([, { width, height }]) => width < least || height < least)
+    .map(([one, { width, height }]) => `${one.outerHTML.slice(0, 80)}: ${width} x ${height}`)"""
+
+
+def assert_large_enough(page: "Page", least: float = 24) -> None:
+    """For a finger: buttons and their like are so many pixels wide and high (WCAG 2.5.8)."""
+    assert page.evaluate(_SMALL, least) == []

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from browser import OpenPage, assert_accessible
+from browser import OpenPage, assert_accessible, assert_large_enough
 from inspect_records import ball_record
+from play_pages import middle
 
 from raysteps.inspector.divergence import find_divergence
 from raysteps.inspector.model import Number
@@ -69,6 +70,44 @@ def test_a_ray_is_chosen_in_the_tree(page: "Page") -> None:
     page.get_by_role("button", name="Show the reflected ray, depth 2 on the stage").click()
     assert page.locator("[data-part=ray]").inner_text() == "reflected ray, depth 2"
     assert page.locator("[data-part=box]").inner_text() == "No boxes were asked for this ray."
+
+
+def test_without_a_tree_nothing_is_said_of_boxes(tmp_path: Path, open_page: OpenPage) -> None:
+    """As before step 06."""
+    record = ball_record()
+    record.ray.boxes = []
+    write_page(record, None, None, tmp_path / "inside.html")
+    page = open_page(tmp_path / "inside.html")
+    assert "box" not in page.locator(".stage").inner_text()
+    assert not page.get_by_role("button", name="Play").is_visible()
+    assert not page.get_by_role("slider").is_visible()
+    assert page.get_by_role("button", name="From the side").is_visible()
+
+
+def test_a_finger_scrolls_past_the_stage_and_turns_it_sideways(tmp_path: Path, open_page: OpenPage) -> None:
+    write_page(ball_record(), None, None, tmp_path / "inside.html")
+    page = open_page(tmp_path / "inside.html", width=320, height=568, touch=True)
+    where = "() => document.querySelector('pixel-inside').view.orbit.from"
+    start = page.evaluate(where)
+    session = page.context.new_cdp_session(page)
+
+    def swipe(across: float, down: float) -> None:
+        x, y = middle(page.locator("canvas"))
+        for at in range(5):
+            points = [{"x": x + at * across, "y": y + at * down}]
+            session.send(
+                "Input.dispatchTouchEvent", {"type": "touchMove" if at else "touchStart", "touchPoints": points}
+            )
+        session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    swipe(-20, 0)
+    turned = page.evaluate(where)
+    assert turned != start
+    assert page.evaluate("scrollY") == 0
+    swipe(0, -30)
+    page.wait_for_function("scrollY > 40")
+    assert page.evaluate(where) == pytest.approx(turned)
+    assert_large_enough(page)
 
 
 def test_the_view_turns_by_keys_and_by_dragging(page: "Page") -> None:

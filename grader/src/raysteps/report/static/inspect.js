@@ -85,6 +85,8 @@ class PixelInside extends HTMLElement {
     this.view = new InsideView(canvas, this.spaces[name]);
     this.view.solid = this.piece("solid").checked;
     this.survive(canvas);
+    const hasBoxes = this.spaces[name].rays.some((ray) => ray.boxes.length);
+    this.toggleAttribute("data-without-boxes", !hasBoxes);
     for (const button of this.querySelectorAll("button[data-space]")) {
       button.setAttribute("aria-pressed", String(button.dataset.space === name));
     }

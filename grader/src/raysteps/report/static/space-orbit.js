@@ -14,8 +14,8 @@ class Orbit {
     this.goHome();
     stage.addEventListener("pointerdown", (event) => this.press(event, stage));
     stage.addEventListener("pointermove", (event) => this.move(event));
-    for (const end of ["pointerup", "pointercancel"])
-      stage.addEventListener(end, (event) => this.fingers.delete(event.pointerId));
+    stage.addEventListener("pointerup", (event) => this.fingers.delete(event.pointerId));
+    stage.addEventListener("pointercancel", (event) => this.giveUp(event));
     stage.addEventListener(
       "wheel",
       (event) => {
@@ -65,6 +65,7 @@ class Orbit {
 
   press(event, stage) {
     stage.setPointerCapture(event.pointerId);
+    if (!this.fingers.size) this.pressed = { from: this.from, at: this.at };
     this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
   }
 
@@ -79,6 +80,13 @@ class Orbit {
     this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
     if (old > 0 && spread() > 0) this.zoom(old / spread());
     else this.turn((event.clientX - before[0]) * 0.008, (event.clientY - before[1]) * 0.008);
+  }
+
+  /** The finger scrolls the page: whatever it had turned until that was clear goes back. */
+  giveUp(event) {
+    if (!this.fingers.delete(event.pointerId)) return;
+    Object.assign(this, this.pressed);
+    this.changed();
   }
 
   key(event) {
