@@ -80,6 +80,10 @@ def test_the_camera_is_the_students(
     page = opened("01")
     words = _words(page, "camera")
     says(words, "It waits for view_frame and primary_ray: not written yet")
+    to_come = _figure(page, "camera").get_by_text("To be drawn here")
+    assert to_come.nth(1).locator("..").inner_text().endswith("From the eye: the window and the centres of its pixels.")
+    tip = _figure(page, "camera").get_by_role("slider", name="Tip of the camera's up")
+    assert tip.count() == 0, "nothing is there to drag"
     assert_accessible(page)
     right = solved["01-camera-rays"]
     save(page, right)
@@ -95,7 +99,7 @@ def test_the_camera_is_the_students(
     says(words, r"half_width 1\.1547, half_height 0\.5774")
     angle.press("End")  # 130 degrees: no further
     says(words, r"half_height 2\.1445")
-    tip = _figure(page, "camera").get_by_role("slider", name="Tip of the camera's up")
+    assert not to_come.nth(1).is_visible()
     for _ in range(6):
         tip.press("ArrowRight")
     says(words, r"up \(0\.5, 0\.866, 0\); ")  # it leans by 30 degrees

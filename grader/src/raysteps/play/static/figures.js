@@ -4,150 +4,12 @@
 
 import { said } from "./drawing-words.js";
 import { drawingsOf } from "./drawings.js";
+import { svg, View } from "./figure-view.js";
 import { Runner } from "./programs.js";
 
 const SECONDS = 4; // for one answer
-const SVG = "http://www.w3.org/2000/svg";
-const MARGIN = 12; // around what a view shows, in its own pixels
-const WIDTH = 320;
 const REST = 600; // milliseconds without a change, until what is seen is read out
 let lastId = 0;
-
-function svg(tag, attributes = {}, ...children) {
-  const node = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) {
-    node.setAttribute(name, value);
-  }
-  node.append(...children);
-  return node;
-}
-
-/** What a view shows: the world's x runs to the right, y up; both have the same scale unless the view has its own. */
-class View {
-  #scene = svg("g", { "aria-hidden": "true" });
-  #canvas = document.createElement("canvas");
-  #box;
-  #scale;
-
-  constructor(description) {
-    const [left, bottom, right, top] = description.box;
-    const scale = (WIDTH - 2 * MARGIN) / (right - left);
-    this.#box = description.box;
-    this.#scale = [scale, description.stretch ?? scale];
-    const height = 2 * MARGIN + (top - bottom) * this.#scale[1];
-    this.draw = description.draw;
-    this.node = svg("svg", { viewBox: `0 0 ${WIDTH} ${height}`, role: "group", "aria-label": description.label });
-    this.node.append(this.#scene);
-  }
-
-  /** Where a point of the world is. */
-  at([x, y]) {
-    const [left, , , top] = this.#box;
-    return [MARGIN + (x - left) * this.#scale[0], MARGIN + (top - y) * this.#scale[1]];
-  }
-
-  /** The point of the world below a pointer. */
-  under(event) {
-    const seen = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.node.getScreenCTM().inverse());
-    const [left, , , top] = this.#box;
-    return [left + (seen.x - MARGIN) / this.#scale[0], top - (seen.y - MARGIN) / this.#scale[1]];
-  }
-
-  clear() {
-    this.#scene.replaceChildren();
-  }
-
-  #add(tag, look, attributes) {
-    this.#scene.append(svg(tag, { class: `live-${look}`, ...attributes }));
-  }
-
-  /** A line through points of the world. */
-  line(points, look) {
-    const places = points.filter((point) => point.every(Number.isFinite)).map((point) => this.at(point).join(","));
-    this.#add("polyline", look, { points: places.join(" ") });
-  }
-
-  /** A rectangle between two corners. */
-  outline([x, y], [x1, y1], look) {
-    const corners = [
-      [x, y],
-      [x1, y],
-      [x1, y1],
-      [x, y1],
-    ];
-    this.line([...corners, corners[0]], look);
-  }
-
-  segment(from, to, look) {
-    this.line([from, to], look);
-  }
-
-  /** A segment with a head at its end. */
-  arrow(from, to, look) {
-    this.segment(from, to, look);
-    const [[x0, y0], [x1, y1]] = [this.at(from), this.at(to)];
-    const length = Math.hypot(x1 - x0, y1 - y0);
-    if (length > 1) {
-      const [x, y] = [(8 * (x1 - x0)) / length, (8 * (y1 - y0)) / length];
-      const head = [x1, y1, x1 - x - y / 2, y1 - y + x / 2, x1 - x + y / 2, y1 - y - x / 2];
-      this.#add("polygon", `${look} live-head`, { points: head.join(" ") });
-    }
-  }
-
-  dot(point, look, radius = 4) {
-    const [cx, cy] = this.at(point);
-    if (Number.isFinite(cx + cy)) {
-      this.#add("circle", look, { cx, cy, r: radius });
-    }
-  }
-
-  /** Many dots, which are one thing to draw. */
-  dots(points, look, radius) {
-    const places = points.map((point) => this.at(point)).filter((place) => place.every(Number.isFinite));
-    this.#add("path", `${look} live-dots`, {
-      d: places.map((place) => `M${place}h0`).join(""),
-      "stroke-width": 2 * radius,
-    });
-  }
-
-  circle(center, radius, look) {
-    const [cx, cy] = this.at(center);
-    this.#add("circle", look, { cx, cy, r: radius * this.#scale[0] });
-  }
-
-  /** What is filled between two corners, whichever: glass, or a box. */
-  area(corner, other) {
-    const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
-    const [width, height] = [Math.abs(x1 - x), Math.abs(y1 - y)];
-    if (Number.isFinite(width + height)) {
-      this.#add("rect", "area", { x: Math.min(x, x1), y: Math.min(y, y1), width, height });
-    }
-  }
-
-  words(point, text) {
-    const [x, y] = this.at(point);
-    if (Number.isFinite(x + y)) {
-      this.#scene.append(svg("text", { class: "live-words", x, y }, text));
-    }
-  }
-
-  /** A picture between two corners, six hexadecimal digits a pixel, so many in a row. */
-  picture(corner, other, digits, width) {
-    const pixels = Uint8ClampedArray.from({ length: (digits.length / 6) * 4 }, (_, at) =>
-      at % 4 === 3 ? 255 : Number.parseInt(digits.substr(6 * (at >> 2) + 2 * (at % 4), 2), 16),
-    );
-    const data = new ImageData(pixels, width);
-    Object.assign(this.#canvas, { width, height: data.height }).getContext("2d").putImageData(data, 0, 0);
-    const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
-    this.#add("image", "picture", { x, y, width: x1 - x, height: y1 - y, href: this.#canvas.toDataURL() });
-  }
-
-  /** A rectangle between two corners, filled with red, green and blue in bytes. */
-  swatch(corner, other, bytes) {
-    const [[x, y], [x1, y1]] = [this.at(corner), this.at(other)];
-    this.#add("rect", "swatch", { x, y, width: x1 - x, height: y1 - y, fill: `rgb(${bytes.join(" ")})` });
-  }
-}
 
 /** One figure: sliders, views with handles, and a text that says what is seen. */
 class Figure {
@@ -188,7 +50,7 @@ class Figure {
     for (const one of description.views) {
       const view = new View(one);
       this.#views.push(view);
-      this.node.querySelector(".live-views").append(view.node);
+      this.node.querySelector(".live-views").append(view.room);
       for (const handle of one.handles) {
         this.#addHandle(view, handle);
       }
@@ -299,12 +161,12 @@ class Figure {
     return mine.reduce((best, one) => (far(one) < far(best) ? one : best)).node;
   }
 
-  /** Only words. */
-  tell(text) {
+  /** Only words; where it waits for somebody, also those that say what will be drawn. */
+  tell(text, isWaiting) {
     for (const view of this.#views) {
       view.clear();
     }
-    this.node.dataset.state = "waiting";
+    this.node.dataset.state = isWaiting ? "waiting" : "failed";
     this.#say(text);
   }
 
@@ -334,12 +196,15 @@ class Figure {
   }
 }
 
-const UNWRITTEN = /: (\S+) is not written yet/g; // a stub says so, and answers with nothing
+/** The functions that were asked and are stubs: these say so, and answer with nothing. */
+function unwritten({ stderr = "" }) {
+  return [...stderr.matchAll(/: (\S+) is not written yet/g)].map(([, name]) => name);
+}
 
 /** What a program printed last, if it is an answer of what somebody wrote. */
-function answerOf({ code, stdout, stderr }) {
+function answerOf(ran) {
   try {
-    return code === 0 && stderr.search(UNWRITTEN) < 0 ? JSON.parse(stdout.trim().split("\n").at(-1)) : null;
+    return ran.code === 0 && !unwritten(ran).length ? JSON.parse(ran.stdout.trim().split("\n").at(-1)) : null;
   } catch {
     return null; // it was ended before, or printed more than is kept
   }
@@ -347,7 +212,7 @@ function answerOf({ code, stdout, stderr }) {
 
 /** Why there is no answer. */
 function whyNot(ran) {
-  const missing = [...(ran.stderr ?? "").matchAll(UNWRITTEN)].map(([, name]) => name);
+  const missing = unwritten(ran);
   if (missing.length) {
     const names = [missing.slice(0, -1).join(", "), missing.at(-1)].filter(Boolean).join(" and ");
     return `It waits for ${names}: not written yet.`;
@@ -410,10 +275,10 @@ export class Figures {
     }
   }
 
-  /** Says the same in all. */
+  /** Says the same in all, as long as nothing can be drawn. */
   tell(text) {
     for (const figure of this.#figures) {
-      figure.tell(text);
+      figure.tell(text, true);
     }
   }
 
@@ -441,7 +306,7 @@ export class Figures {
       if (answer) {
         next.show(values, answer);
       } else if (ran.stopped !== "hand") {
-        next.tell(whyNot(ran));
+        next.tell(whyNot(ran), unwritten(ran).length > 0);
       }
     }
     this.#isAsking = false;
