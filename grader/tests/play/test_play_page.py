@@ -135,6 +135,53 @@ def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str
     expect(page.get_by_role("dialog")).to_contain_text("glm::vec3 point_at(const Ray& ray, float distance);")
 
 
+def _right(page: "Page", room: str) -> float:
+    box = page.locator(room).bounding_box()
+    assert box is not None
+    return box["x"] + box["width"]
+
+
+def _left(page: "Page", room: str) -> float:
+    box = page.locator(room).bounding_box()
+    assert box is not None
+    return box["x"]
+
+
+def test_a_text_to_read_stands_beside_what_is_written(page: "Page") -> None:
+    """Where there is room; on a phone it lies over the page."""
+    from playwright.sync_api import expect
+
+    text, handout = page.locator("#play-reading"), page.locator("#play-handout")
+    link = handout.get_by_role("link", name="camera_rays.hpp")
+    link.click()
+    expect(page.locator("#play-reading-text")).to_be_focused()
+    assert_accessible(page)
+    expect(handout).to_be_hidden()
+    assert _right(page, "#play-reading") <= _left(page, "#play-source")
+    write(page, "// while it can be read\n")
+    expect(page.locator(".cm-content")).to_have_text("// while it can be read")
+    expect(text).to_be_visible()
+    page.locator("#play-reading-text").press("Escape")
+    expect(text).to_be_hidden()
+    expect(handout).to_be_visible()
+    expect(link).to_be_focused()
+    page.set_viewport_size({"width": 1920, "height": 1080})
+    link.click()
+    assert _right(page, "#play-handout") <= _left(page, "#play-reading")
+    assert _right(page, "#play-reading") <= _left(page, "#play-source")
+    for width, height, is_modal in ((768, 1024, False), (390, 844, True)):
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_function(
+            "wanted => document.querySelector('#play-reading').matches(':modal') === wanted", arg=is_modal
+        )
+        expect(text).to_be_in_viewport()
+        assert_no_sideways_scrolling(page)
+        assert_accessible(page)
+    page.set_viewport_size({"width": 768, "height": 1024})
+    page.locator("#play-step").select_option("02")
+    expect(text).to_be_hidden()
+
+
 def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 

@@ -3,12 +3,13 @@
 import { Editor } from "./editor.js";
 import { Figures } from "./figures.js";
 import { DiskFolder } from "./folder.js";
+import { nextHint } from "./hints.js";
 import { Inside } from "./inside.js";
 import { data, element } from "./page-data.js";
 import { Painter } from "./painting.js";
+import { tellProblems } from "./problems.js";
 import { Compiler } from "./programs.js";
-import { openTexts, textLink } from "./reading.js";
-import { linkerWords } from "./report.js";
+import { closeText, openTexts, textLink } from "./reading.js";
 import { Tester } from "./testing.js";
 import { Turn, textsIn, Work, zipOf } from "./work.js";
 
@@ -18,18 +19,6 @@ const SOON = 3000; // milliseconds until a service worker is there, or the page 
 const turnOf = (step) => `raysteps-play ${step.id}`; // of the tab that writes it
 const LOADED = { [data.kit.clang]: "the compiler", [data.kit.system]: "C++", [data.kit.parts]: "the kit" };
 const replaced = (step) => `${step.id} before its reset`; // what may be brought back, by this name in the work
-
-/** What the compiler says: `{file, line, column, severity, message}`, notes behind what they belong to. */
-function problemsIn(text) {
-  const found = text.matchAll(/^(.+?):(\d+):(\d+): (?:fatal )?(error|warning|note): (.*)$/gm);
-  return [...found].map(([, file, line, column, kind, message]) => ({
-    file,
-    line: Number(line),
-    column: Number(column),
-    severity: kind === "note" ? "info" : kind,
-    message,
-  }));
-}
 
 /** Where the page is published, a service worker keeps its files. */
 async function keepFiles() {
@@ -48,13 +37,6 @@ async function keepFiles() {
   } catch {
     // a browser that keeps nothing, as in a private window: then all is loaded each time
   }
-}
-
-/** Words flow, and keep `code` apart; what has columns, as pseudocode has, keeps them. */
-function hint(text) {
-  const pieces = text.split("`").map((piece, at) => (at % 2 ? make("code", {}, piece) : piece));
-  const hasColumns = /\S {2}|^ /m.test(text);
-  return hasColumns ? make("pre", { class: "play-hint", tabindex: 0 }, ...pieces) : make("p", {}, ...pieces);
 }
 
 /** Nothing where it cannot be loaded. */
@@ -115,7 +97,7 @@ class Page {
       location.hash = this.#next.number;
     });
     element("play-here").addEventListener("click", () => this.#writeHere());
-    element("play-hint").addEventListener("click", () => this.#hint());
+    element("play-hint").addEventListener("click", () => nextHint(this.#step));
     element("play-reset").addEventListener("click", () => element("play-really").showModal());
     element("play-really").addEventListener("close", (event) => {
       if (event.target.returnValue === "reset") {
@@ -164,6 +146,7 @@ class Page {
     }
     const before = this.#step;
     this.stop();
+    closeText();
     this.#step = wanted; // and its text with it, without a pause: what is kept is always the step's own
     this.#show(source, isMine);
     this.#editor.toTop();
@@ -479,17 +462,6 @@ class Page {
     await this.run();
   }
 
-  #hint() {
-    const room = element("play-hints");
-    const text = this.#step.hints[room.childElementCount];
-    if (text) {
-      const title = make("summary", {}, `Hint ${room.childElementCount + 1} of ${this.#step.hints.length}`);
-      room.append(make("details", { open: true }, title, hint(text.trim())));
-      room.lastElementChild.scrollIntoView({ block: "nearest" });
-    }
-    element("play-hint").disabled = room.childElementCount >= this.#step.hints.length;
-  }
-
   #say(phase, text) {
     const room = element("play-status");
     room.dataset.phase = phase;
@@ -556,7 +528,7 @@ class Page {
       if (run !== this.#run) {
         return;
       }
-      this.#tellProblems(step, built);
+      tellProblems(step, built, this.#editor);
       element("play-stale").hidden = built.program !== null || !element("play-first").childElementCount;
       if (!built.program) {
         element("play-next").hidden = true;
@@ -593,37 +565,6 @@ class Page {
       sources[one.number] = await this.#sourceOf(one);
     }
     return sources;
-  }
-
-  #tellProblems(step, built) {
-    const room = element("play-problems");
-    room.replaceChildren();
-    const mine = [];
-    for (const { number, text } of built.says) {
-      const source = data.kit.steps[number].source;
-      const problems = problemsIn(text);
-      for (const problem of problems) {
-        const isMine = number === step.number && problem.file === source;
-        mine.push(...(isMine ? [problem] : []));
-        room.append(this.#problem(problem, isMine));
-      }
-      const words = linkerWords(text, data.words);
-      if (words) {
-        room.append(make("p", { class: "play-problem play-error" }, words));
-      } else if (!problems.length && text.trim()) {
-        room.append(make("pre", { tabindex: 0 }, text.trim()));
-      }
-    }
-    this.#editor.mark(mine);
-  }
-
-  #problem({ file, line, severity, message }, isMine) {
-    const where = `${file.split("/").at(-1)}:${line}`;
-    const place = isMine ? make("button", { type: "button", class: "play-place" }, where) : make("code", {}, where);
-    if (isMine) {
-      place.addEventListener("click", () => this.#editor.goTo(line));
-    }
-    return make("p", { class: `play-problem play-${severity}` }, place, ` ${severity}: ${message}`);
   }
 
   #print(ran) {

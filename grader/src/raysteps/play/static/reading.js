@@ -1,11 +1,26 @@
 // Files to read beside the one that is written: contracts, tests, headers of the framework, scenes.
 
 const element = (id) => document.getElementById(id);
+const HAS_ROOM = matchMedia("(min-width: 64rem), (min-width: 40rem) and (min-height: 40rem)"); // as in play.css
 
 /** A link that opens a file here, at a line; without scripts, or by another button of the mouse, in its own place. */
 export function textLink(name, place, line = 0) {
   const words = line ? `${name}:${line}` : name;
   return make("a", { href: place, class: "play-text", "data-line": line }, make("code", {}, words));
+}
+
+/** Beside the source, which can be written meanwhile; over it where there is no room for both. */
+function open(dialog) {
+  if (HAS_ROOM.matches) {
+    dialog.show();
+  } else {
+    dialog.showModal();
+  }
+}
+
+/** What was read is of another step. */
+export function closeText() {
+  element("play-reading").close();
 }
 
 async function read(link) {
@@ -17,13 +32,29 @@ async function read(link) {
   const pieces = at < 0 ? [part(0)] : [`${part(0, at)}\n`, marked, `\n${part(at + 1)}`];
   element("play-reading-title").textContent = decodeURI(link.pathname.split("/texts/").at(-1)).replace(/\.txt$/, "");
   element("play-reading-text").replaceChildren(...pieces);
-  element("play-reading").showModal();
+  const dialog = element("play-reading");
+  if (!dialog.open) {
+    open(dialog);
+  }
+  element("play-reading-text").focus({ preventScroll: true });
   element("play-reading-text").scrollTop = 0;
   marked.scrollIntoView({ block: "center" });
 }
 
 /** Everywhere in the page. */
 export function openTexts(tellFault) {
+  const dialog = element("play-reading");
+  HAS_ROOM.addEventListener("change", () => {
+    if (dialog.open) {
+      dialog.close();
+      open(dialog);
+    }
+  });
+  dialog.addEventListener("keydown", ({ key }) => {
+    if (key === "Escape") {
+      dialog.close(); // a browser does so only for what lies over all else
+    }
+  });
   document.addEventListener("click", (event) => {
     const link = event.target.closest("a.play-text");
     if (link && !event.ctrlKey && !event.metaKey && !event.shiftKey) {
