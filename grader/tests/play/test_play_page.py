@@ -17,7 +17,7 @@ from urllib.error import HTTPError
 from urllib.request import urlopen
 
 import pytest
-from browser import Watched, assert_accessible, assert_no_sideways_scrolling, broken_words
+from browser import Watched, assert_accessible, assert_large_enough, assert_no_sideways_scrolling, broken_words
 from play_pages import STARTED, save, says, with_packages, write
 
 from raysteps.cli.render import build_program
@@ -654,6 +654,7 @@ def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     assert not page.locator("#play-folder").is_visible()
     assert_no_sideways_scrolling(page)
     assert_accessible(page)
+    assert_large_enough(page)
 
     def top(room: str) -> float:
         return float(page.locator(room).evaluate("room => room.getBoundingClientRect().top"))
@@ -662,7 +663,7 @@ def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
         page.get_by_role("button", name=title, exact=True).tap()
         page.wait_for_function("room => document.querySelector(room).getBoundingClientRect().top < 200", arg=room)
         assert top(room) >= page.locator(".page-head").evaluate("head => head.getBoundingClientRect().bottom")
-        expect(page.get_by_role("button", name="Run")).to_be_in_viewport()
+        expect(page.get_by_role("button", name="Run")).to_be_in_viewport(ratio=1)
         expect(page.locator("#play-status")).to_be_in_viewport()
     page.get_by_role("button", name="Hint").tap()
     expect(page.locator("#play-hints p")).to_be_in_viewport()
@@ -670,6 +671,34 @@ def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     page.locator("#play-step").select_option("02")
     _says(page, r"0 of 16 tests pass", timeout=STARTED)
     expect(page.locator("#play-handout h1")).to_be_in_viewport()
+
+
+@pytest.mark.parametrize(("width", "height"), [(320, 568), (640, 360)])
+def test_what_the_compiler_says_is_in_sight_on_a_small_screen(
+    watched: Watched, server: PlayServer, solved: dict[str, str], width: int, height: int
+) -> None:
+    """640 x 360 is half of a usual screen at 200 %. The caret stays between what lies over the page at its edges."""
+    from playwright.sync_api import expect
+
+    watched.allowed.append(server.address)
+    page = watched.open(server.address, width=width, height=height)
+    _says(page, r"0 of 12 tests pass", timeout=STARTED)
+    save(page, "int unused;\n" * 30 + solved["01-camera-rays"].replace(_POINT, "return ray.orgin;"))
+    _says(page, r"It does not compile\.")
+    expect(page.get_by_role("button", name="Run")).to_be_in_viewport(ratio=1)
+    assert_no_sideways_scrolling(page)
+    head, problems, line = page.locator(".page-head"), page.locator("#play-problems"), page.locator(".cm-activeLine")
+    for key in ("ControlOrMeta+Home", "ControlOrMeta+End"):
+        page.keyboard.press(key)
+        expect(problems.get_by_role("button").first).to_be_in_viewport(ratio=1)
+        page.wait_for_function(
+            """([line, above, below]) => {
+                const { top, bottom } = line.getBoundingClientRect();
+                const { top: most } = below.getBoundingClientRect();
+                return above.getBoundingClientRect().bottom <= top && bottom <= most;
+            }""",
+            arg=[one.element_handle() for one in (line, head, problems)],
+        )
 
 
 def test_rooms_scroll_and_the_page_does_not(page: "Page") -> None:

@@ -32,6 +32,12 @@ const LOOK = EditorView.theme({
   ".cm-panels, .cm-tooltip": { backgroundColor: "var(--panel)", color: "var(--ink)", borderColor: "var(--line)" },
 });
 
+/** What lies over the page at its edges, by the page's style: the caret does not go below it. */
+function edges() {
+  const { scrollPaddingTop, scrollPaddingBottom } = getComputedStyle(document.documentElement);
+  return { top: Number.parseFloat(scrollPaddingTop) || 0, bottom: Number.parseFloat(scrollPaddingBottom) || 0 };
+}
+
 /** A name of the contract, offered while it is typed. */
 function completions(names) {
   return (context) => {
@@ -93,6 +99,7 @@ export class Editor {
       highlightSelectionMatches(),
       lintGutter(),
       EditorView.lineWrapping,
+      EditorView.scrollMargins.of(edges),
       LOOK,
       EditorView.domEventHandlers({ beforeinput: typedOver }),
       EditorView.contentAttributes.of({
