@@ -110,6 +110,12 @@ def test_a_finger_scrolls_past_the_stage_and_turns_it_sideways(tmp_path: Path, o
     assert_large_enough(page)
 
 
+def test_the_stage_stays_dark_with_the_colours_of_a_system(page: "Page") -> None:
+    """The eye ray is white."""
+    page.emulate_media(forced_colors="active")
+    assert page.locator("canvas").evaluate("one => getComputedStyle(one).backgroundColor") == "rgb(42, 45, 49)"
+
+
 def test_the_view_turns_by_keys_and_by_dragging(page: "Page") -> None:
     where = "() => document.querySelector('pixel-inside').view.orbit.from"
     start = page.evaluate(where)

@@ -234,6 +234,17 @@ def test_two_fingers_zoom(open_page: OpenPage, planted: Path) -> None:
     assert _zoom(element) == 3
 
 
+def test_what_is_pressed_is_seen_with_the_colours_of_a_system(open_page: OpenPage, planted: Path) -> None:
+    page = open_page(planted)
+    element = _ready(page)
+    page.emulate_media(forced_colors="active")
+    color = "one => getComputedStyle(one).backgroundColor"
+    on, off = (element.locator(f"button[aria-pressed={state}]").first.evaluate(color) for state in ("true", "false"))
+    assert on != off
+    stage = element.locator(".compare-stage").evaluate(color)
+    assert stage == "rgb(42, 45, 49)", "white pictures are told from it"
+
+
 def test_difference_and_flip_are_brightest_at_the_planted_error(open_page: OpenPage, planted: Path) -> None:
     page = open_page(planted)
     element = _ready(page)
