@@ -502,12 +502,18 @@ def test_a_pixel_is_followed_to_its_end(
     expect(dialog.locator("[data-part=ray]")).to_have_text("reflected ray, depth 2")
     assert_accessible(page)
     page.emulate_media(color_scheme="dark")
-    page.set_viewport_size({"width": 390, "height": 844})
+    page.set_viewport_size({"width": 320, "height": 568})
     assert_no_sideways_scrolling(page)
     assert_accessible(page)
+    assert_large_enough(page)
+    dialog.evaluate("dialog => dialog.scrollTo(0, dialog.scrollHeight)")
+    expect(dialog.get_by_role("button", name="Close")).to_be_in_viewport(ratio=1)
     page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()
     expect(button).to_be_focused()
+    rooms = "one => [one.clientWidth, one.querySelector('compare-pictures').clientWidth]"
+    whole, comparison = picture.evaluate(rooms)
+    assert comparison == whole, "below its title, not beside what stands at its right"
 
     save(page, "int broken")
     _says(page, r"It does not compile\.", timeout=STARTED)
