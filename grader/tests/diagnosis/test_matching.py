@@ -175,6 +175,21 @@ def test_two_mistakes_in_one_function() -> None:
     assert [found.mutant.id for found in named] == ["first", "second"]
 
 
+def test_the_same_answer_to_everything_is_not_two_mistakes() -> None:
+    """A function that is not written yet, and not marked as a stub, answers like this."""
+    known = {
+        _mutant("first"): {"mirror": _wrong("0 0 0", *range(20))},
+        _mutant("second"): {"mirror": _wrong("0 0 0", *range(20, _AMOUNT))},
+    }
+    everything = _wrong("0 0 0", *range(_AMOUNT))
+    assert not name_mistakes(_matched({"mirror": everything}, known))
+    nearly = {number: said for number, said in everything.items() if number}
+    assert [found.mutant.id for found in name_mistakes(_matched({"mirror": nearly}, known))] == ["first", "second"]
+    always = {_mutant("always"): {"mirror": everything}}
+    (named,) = name_mistakes(_matched({"mirror": everything}, known | always))
+    assert named.mutant.id == "always"
+
+
 def _picture(mine: Pixels, reference: Pixels) -> Picture:
     return Picture(ImageCase("lit", "scenes/x.nff", (), 0.003), mine, reference)
 

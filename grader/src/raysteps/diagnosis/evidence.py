@@ -139,6 +139,19 @@ class Picture:
         return not is_flat(self.mine) or is_flat(self.reference)
 
 
+def _is_constant(questions: Questions, mine: Mapping[int, ObservedAnswers]) -> bool:
+    """Whether all wrong answers are the same one, and all right ones may be, too."""
+    lines = {one.line for one in mine.values()}
+    if len(lines) != 1 or any(not line or line.startswith("#") for line in lines):
+        return False
+    (line,) = lines
+    answer = questions.function.answer
+    rest = [
+        pair for number, pair in enumerate(zip(questions.cases, questions.right, strict=True)) if number not in mine
+    ]
+    return all(not case.verdict(answer, right, line).problem for case, right in rest)
+
+
 @dataclass(frozen=True)
 class Evidence:
     """`questions` and `answers` are of the functions that were asked, `pictures` are those that came out. `right`: the
@@ -150,6 +163,11 @@ class Evidence:
     pictures: Mapping[str, Picture]
     right: Collection[str] = ()
     right_apart: Collection[str] = ()
+
+    @cached_property
+    def constant(self) -> Collection[str]:
+        """The functions that give one answer whatever they are asked, as a stub does that nobody marked as one."""
+        return {name for name, mine in self.answers.items() if _is_constant(self.questions[name], mine)}
 
     @property
     def is_wrong(self) -> bool:

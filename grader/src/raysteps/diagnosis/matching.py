@@ -33,13 +33,15 @@ _FEWEST_DENYING = 4  # cases of its own function that a mistake makes wrong: who
 class Agreement:
     """Of a mistake and the student in one function: the cases in which either is wrong, and how alike they are where
     both are. `weak`: wrong answers hardly differ, so that they prove less. `empty`: of the cases where both are wrong,
-    the share in which nothing was found where there is something: so it looks whatever lost it."""
+    the share in which nothing was found where there is something: so it looks whatever lost it. `constant`: the
+    student's answer is always the same, which mistakes that are not seem to explain, above all two of them together."""
 
     mine: frozenset[int]
     mistake: frozenset[int]
     alike: Mapping[int, float]
     weak: bool = False
     empty: float = 0.0
+    constant: bool = False
 
     @property
     def score(self) -> float:
@@ -81,6 +83,8 @@ class Match:
 
     def _least(self, one: Agreement, told: Collection[str]) -> float:
         drawn = self._drawn()
+        if one.constant and not one.weak:
+            return GOOD_WEAK
         telling = drawn.keys() & self.telling
         if one.weak:
             plain = [score for name, score in self.pictures.items() if name in self.telling - self.in_trees - set(told)]
@@ -115,7 +119,10 @@ class Match:
 
 
 def agreement(
-    questions: Questions, mistake: Mapping[int, ObservedAnswers], mine: Mapping[int, ObservedAnswers]
+    questions: Questions,
+    mistake: Mapping[int, ObservedAnswers],
+    mine: Mapping[int, ObservedAnswers],
+    constant: bool = False,
 ) -> Agreement:
     """Cases of which nobody knows the answer are left out."""
     unknown = {number for said in (mistake, mine) for number, one in said.items() if not one.known}
@@ -128,7 +135,7 @@ def agreement(
     wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
     weak = questions.function.yes_or_no or questions.function.answer in (TREE, BVH)
     empty = sum(mine[number].problem == NOTHING_FOUND for number in both) / len(both) if both else 0.0
-    return Agreement(wrong, other, alike, weak, empty)
+    return Agreement(wrong, other, alike, weak, empty, constant)
 
 
 def picture_score(mistake: Pixels | None, picture: Picture) -> float:
@@ -159,7 +166,7 @@ def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) ->
         if mine and found.denied and name in evidence.right_apart:
             continue  # a wrong function before it spoils it, and the mistake sits in a right one
         if mine:
-            found.functions[name] = agreement(evidence.questions[name], mistake, mine)
+            found.functions[name] = agreement(evidence.questions[name], mistake, mine, name in evidence.constant)
         elif mistake:
             found.against.append(name)
     for name, picture in evidence.pictures.items():
@@ -198,6 +205,8 @@ def pair_score(one: Agreement, other: Agreement) -> float:
 def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | None:
     """The two that explain the function together; mistakes of this function only."""
     here = [match for match in matches if match.mutant.function == function and match.functions[function].mistake]
+    if any(match.functions[function].constant for match in here):
+        return None
     scored = [
         (pair_score(one.functions[function], other.functions[function]), (one, other))
         for one, other in combinations(here, 2)
