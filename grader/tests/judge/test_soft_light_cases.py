@@ -94,7 +94,7 @@ def _triangle_samples(inputs: Inputs, u: Numbers, **wrong: float) -> Numbers:
     [
         ({}, ""),
         ({"turned": -1.0}, "a normal points to the dark side"),
-        ({"factor": 0.5}, "pdf is too small, by the same factor for all points"),
+        ({"factor": 0.5}, "pdf is too small, by the same factor for all points: it is 0.5 times what it should be"),
         ({"factor": 0.0}, "pdf is 0 where light is seen"),
         ({"power": 1.0}, "pdf is too small, and not by the same factor for all points"),
     ],
@@ -110,6 +110,8 @@ def test_one_point_for_all_is_no_sample() -> None:
     inputs = _inputs("sample_triangle", "a few samples")
     rows = _triangle_samples(inputs, np.full((8, 2), 0.5))
     assert _problem(_FUNCTIONS["sample_triangle"], inputs, rows) == "different u give the same point"
+    off = "a point lies off the triangle, the same for every u"
+    assert _problem(_FUNCTIONS["sample_triangle"], inputs, rows + 9.0) == off
 
 
 def test_a_wrong_density_leaves_right_points_a_part_of_their_credit() -> None:

@@ -134,7 +134,10 @@ def test_a_point_on_the_border_of_its_square_may_be_rounded_across() -> None:
     ("change", "said"),
     [
         (lambda p: p[:, :-1], "there are not side * side points"),
-        (lambda p: p * 1.2, "outside of the unit square"),
+        (lambda p: p[:, :0], "there are no points"),
+        (lambda p: p[:, _SIDE:], "a row of points is missing"),
+        (lambda p: p * 1.2, "outside of the unit square, beyond 1"),
+        (lambda p: p - 0.5 / _SIDE, "outside of the unit square, below 0"),
         (lambda p: np.random.default_rng(3).random(p.shape), "a square has no point, or two"),
         (lambda p: (np.floor(p * _SIDE) + 0.5 * ((p * _SIDE) % 1)) / _SIDE, "do not lie everywhere"),
         (lambda p: np.floor(p * _SIDE) / _SIDE + 0.5 / _SIDE, "do not lie everywhere"),

@@ -1,7 +1,7 @@
 """Cases of step 10."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -118,15 +118,25 @@ def _problem_of_squares(shares: Numbers) -> str:
     return _STREAMS if _are_dependent(shares[0:-1:2], shares[1::2]) else ""
 
 
+def _problem_of_amounts(amounts: Collection[int], side: int) -> str:
+    """In words that tell apart what is missing."""
+    if not any(amounts):
+        return "there are no points"
+    only_row = set(amounts) == {side * (side - 1)}
+    return "a row of points is missing" if only_row else "there are not side * side points"
+
+
 def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     side, times = whole_of(inputs, "side"), whole_of(inputs, "times")
     if len(actual.points) != times + 1:
         return "no proper answer came"
     if any(len(points) != side * side for points in actual.points):
-        return "there are not side * side points"
+        return _problem_of_amounts({len(points) for points in actual.points}, side)
     every = np.array(actual.points)
-    if not ((every >= 0) & (every <= 1)).all():
-        return "a point lies outside of the unit square"
+    if (every < 0).any():
+        return "a point lies outside of the unit square, below 0"
+    if not (every <= 1).all():
+        return "a point lies outside of the unit square, beyond 1"
     shares = _in_squares(every[:-1], side)
     if shares is None:
         return "a square has no point, or two"

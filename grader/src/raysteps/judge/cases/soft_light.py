@@ -87,6 +87,12 @@ def _broken(inputs: Inputs, actual: _Draws, what: str) -> str:
     return ""
 
 
+def _where(problem: str, points: Numbers) -> str:
+    """A place that no point may have. One that all points have is not of a wrong formula but of none."""
+    alike = len(points) > 1 and bool((points == points[0]).all())
+    return f"{problem}, the same for every u" if alike else problem
+
+
 @dataclass(frozen=True)
 class _Places:
     """How a shape is measured: of each point two numbers that are even from 0 to 1 where all of the shape is equally
@@ -336,7 +342,7 @@ def _normal_problem(expected: Numbers, actual: _Draws) -> str:
 
 
 def _density_problem(expected: Numbers, actual: _Draws) -> str:
-    """Who is wrong by one factor everywhere has forgotten something else than who is not."""
+    """Who is wrong by one factor everywhere has forgotten something else than who is not, or is wrong by another."""
     found = actual.rows[:, _DENSITY]
     if float(np.abs(found[expected == 0]).sum()) > 0:
         return "pdf is above 0 where no light is seen"
@@ -346,9 +352,10 @@ def _density_problem(expected: Numbers, actual: _Draws) -> str:
         return ""
     if float(np.abs(ratios).max()) == 0:
         return "pdf is 0 where light is seen"
-    side = "large" if float(ratios.mean()) > 1 else "small"
+    factor = float(ratios.mean())
+    side = "large" if factor > 1 else "small"
     if float(ratios.std()) < 5e-3 * float(np.abs(ratios).mean()):
-        return f"pdf is too {side}, by the same factor for all points"
+        return f"pdf is too {side}, by the same factor for all points: it is {factor:.2g} times what it should be"
     return f"pdf is too {side}, and not by the same factor for all points"
 
 
@@ -390,7 +397,7 @@ def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     off = float(np.abs(spokes @ normal).max()) > 1e-3 * size
     beyond = min(float(of_b.min()), float(of_c.min()), float((1 - of_b - of_c).min())) < -1e-3
     away = np.maximum(of_b + of_c, 1e-12)
-    position = "a point lies off the triangle" if off or beyond else ""
+    position = _where("a point lies off the triangle", spokes) if off or beyond else ""
     position = position or _evenness(inputs, _TRIANGLE, _shares(away**2, of_c / away))
     density = _density_problem(_area_density(inputs, doubled / 2, normal, actual), actual)
     return position, _normal_problem(normal, actual), density
@@ -403,7 +410,7 @@ def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]
     of_x, of_y = spokes @ x, spokes @ y
     squares = of_x**2 + of_y**2
     off = float(np.abs(spokes @ z).max()) > 1e-3 or float(squares.max()) > 1 + 2e-3
-    position = "a point lies off the disk" if off else ""
+    position = _where("a point lies off the disk", spokes) if off else ""
     position = position or _evenness(inputs, _DISK, _shares(squares, _turns(of_x, of_y)))
     density = _density_problem(_area_density(inputs, math.pi * radius * radius, z, actual), actual)
     return position, _normal_problem(z, actual), density
@@ -432,7 +439,7 @@ def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     heights = _heights(local) / height
     slack = 2e-3 + _ROOT_OF_FLOAT * distance / radius
     if float(np.abs(sizes - 1).max()) > slack:
-        position = "a point lies off the sphere"
+        position = _where("a point lies off the sphere", spokes)
     elif float((spokes @ z).max()) > -sine + 0.05 + slack:
         position = "a point lies on the side of the sphere that is not seen"
     else:
@@ -584,8 +591,10 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     squares = of_x**2 + of_y**2
     slack = 1e-5 + 2e-3 * radius
     lifted = float(np.abs(spokes @ np.array(frame.forward)).max())
-    if lifted > slack or math.sqrt(float(squares.max())) > radius + slack:
-        origin = "a ray starts off the lens"
+    if lifted > slack:
+        origin = _where("a ray starts outside of the lens's plane", origins)
+    elif math.sqrt(float(squares.max())) > radius + slack:
+        origin = _where("a ray starts beyond the rim of the lens", origins)
     elif radius:
         origin = _evenness(inputs, _DISK, _shares(squares / radius**2, _turns(of_x, of_y)))
     else:
