@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.course.manifest import Step, read_steps
+from raysteps.course.manifest import Step, kit_steps, read_steps
 from raysteps.course.project import Project, here
 from raysteps.course.settings import PLACE
 from raysteps.course.stubs import stub_for, without_markers
@@ -77,11 +77,11 @@ def fake_grader(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def make_submission(tmp_path: Path, steps: list[Step]) -> MakeSubmission:
+def make_submission(tmp_path: Path, project: Project) -> MakeSubmission:
     """Writes sources to a folder of that name, as steps/NN-name/name.cpp."""
 
     def make(name: str, sources: Sources) -> Path:
-        for step in steps:
+        for step in kit_steps(project):
             if step.id in sources:
                 path = tmp_path / name / "steps" / step.path
                 path.parent.mkdir(parents=True, exist_ok=True)
