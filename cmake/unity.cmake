@@ -7,7 +7,7 @@ function(raysteps_unite)
     if(RAYSTEPS_UNITY)
         set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
         if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-            foreach(target IN LISTS ARGN)  # it sees faults in strings where it sees much, and takes sources for headers
+            foreach(target IN LISTS ARGN)  # false alarms, about strings and about sources within a source
                 target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow
                                                          -Wno-subobject-linkage)
             endforeach()

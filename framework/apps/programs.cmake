@@ -70,4 +70,7 @@ if(sources)  # a students' kit has no judge
     target_link_libraries(worker-app PRIVATE raysteps-flags raysteps-strict)
     raysteps_precompile(framework worker-app)
     raysteps_unite(worker-app)
+    if(RAYSTEPS_OWN_WORKERS)  # an instructor's, which may use any names
+        set_source_files_properties(${RAYSTEPS_OWN_WORKERS} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
 endif()

@@ -33,7 +33,7 @@ foreach(target IN LISTS remote_targets)
 endforeach()
 raysteps_precompile(framework ${remote_targets})
 raysteps_unite(raysteps-wire)
-set_source_files_properties(remote/wire.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # its read is the system's
+set_source_files_properties(remote/wire.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # it calls the system's read() and write()
 # Some systems' compilers define it by themselves; see remote/fiber.cpp.
 set_source_files_properties(
     remote/fiber.cpp PROPERTIES COMPILE_OPTIONS "-U_FORTIFY_SOURCE" SKIP_PRECOMPILE_HEADERS ON

@@ -1,11 +1,11 @@
 #pragma once
 // What somebody who builds a tree does with lists. It is compiled with the headers of a step, once, so that no save has
-// to make the same functions of std::vector again: a sixth of its time. Nobody calls what is here.
+// to make the same functions of std::vector again: a sixth of the compiler's time. Nobody calls what is here.
 #include <vector>
 
 #include "core/surface.hpp"
 
-namespace raysteps {
+namespace raysteps::compiled_ahead {
 
 template <typename List>
 void use_list(List& list) {
@@ -23,4 +23,4 @@ inline void use_lists(SurfaceList& surfaces, std::vector<float>& numbers) {
     use_list(numbers);
 }
 
-}  // namespace raysteps
+}  // namespace raysteps::compiled_ahead

@@ -5,8 +5,8 @@
 #include "core/node.hpp"
 #include "web/ahead/lists.hpp"
 
-namespace raysteps {
+namespace raysteps::compiled_ahead {
 
 inline void use_nodes(std::vector<Node>& nodes) { use_list(nodes); }
 
-}  // namespace raysteps
+}  // namespace raysteps::compiled_ahead

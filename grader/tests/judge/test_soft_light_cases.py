@@ -9,6 +9,7 @@ import pytest
 from raysteps.judge.functions import Function, functions_of
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import RandomSource
+from raysteps.judge.shrink import is_same_kind
 from raysteps.judge.statistics import Numbers, Uneven
 
 pytestmark = pytest.mark.portable
@@ -122,3 +123,16 @@ def test_a_wrong_density_leaves_right_points_a_part_of_their_credit() -> None:
     assert answer.credit(inputs, found, found) == pytest.approx(2 / 3)
     moved = answer.parse(" ".join(repr(float(n)) for n in (np.vstack([rows, rows[:1]]) + 9.0).ravel()))
     assert answer.credit(inputs, moved, moved) == 0
+
+
+def test_a_wrong_factor_may_be_another_in_a_smaller_case() -> None:
+    function, inputs = _FUNCTIONS["sample_triangle"], _inputs("sample_triangle", "a few samples")
+    u = np.random.default_rng(4).random((8, 2))
+    half, quarter, tiny, hardly = (
+        _problem(function, inputs, _triangle_samples(inputs, u, factor=factor)) for factor in (0.5, 0.25, 1e-6, 1.005)
+    )
+    assert half != quarter
+    assert is_same_kind(half, quarter)
+    assert not is_same_kind(half, hardly)
+    assert tiny == "pdf is too small, by the same factor for all points"
+    assert hardly == "pdf is too large, by the same factor for all points"

@@ -140,7 +140,7 @@ class Picture:
 
 
 def _is_constant(questions: Questions, mine: Mapping[int, ObservedAnswers]) -> bool:
-    """Whether all wrong answers are the same one, and all right ones may be, too."""
+    """Whether one answer to everything would be wrong and right in the same cases, with the same wrong answers."""
     lines = {one.line for one in mine.values()}
     if len(lines) != 1 or any(not line or line.startswith("#") for line in lines):
         return False

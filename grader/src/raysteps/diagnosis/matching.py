@@ -82,9 +82,9 @@ class Match:
         return {name: score for name, score in self.pictures.items() if score >= _GOOD_PICTURE}
 
     def _least(self, one: Agreement, told: Collection[str]) -> float:
-        drawn = self._drawn()
         if one.constant and not one.weak:
             return GOOD_WEAK
+        drawn = self._drawn()
         telling = drawn.keys() & self.telling
         if one.weak:
             plain = [score for name, score in self.pictures.items() if name in self.telling - self.in_trees - set(told)]

@@ -25,6 +25,19 @@ class TooLarge(str):
     __slots__ = ()
 
 
+class Counted(str):
+    """A problem that ends in a number. Of two cases with the same `kind` the number may be another."""
+
+    kind: str
+
+
+def counted(kind: str, number: str) -> Counted:
+    """Both in one text."""
+    problem = Counted(f"{kind}: {number}")
+    problem.kind = kind
+    return problem
+
+
 @dataclass(frozen=True)
 class Verdict:
     """What the judge thinks of one answer; `problem` is empty when it is right. `credit`: how much of it is right,

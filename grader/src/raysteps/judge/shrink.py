@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import chain, islice
 
 from raysteps.common.errors import GraderFault
-from raysteps.judge.answers import TooLarge, TooMuchWork
+from raysteps.judge.answers import Counted, TooLarge, TooMuchWork
 from raysteps.judge.choice_sequence import Choice
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.random_source import RandomSource
@@ -65,11 +65,17 @@ def _silent(judged: JudgedCase) -> bool:
     return judged.outcome in ("crashed", "timeout")
 
 
+def is_same_kind(one: str, other: str) -> bool:
+    """Whether two problems are the same but for a number that may differ from case to case."""
+    if isinstance(one, Counted) and isinstance(other, Counted):
+        return one.kind == other.kind
+    return type(one) is type(other) and one == other
+
+
 def _same_way(one: JudgedCase, other: JudgedCase) -> bool:
     if one.outcome != other.outcome:
         return False
-    alike = type(one.verdict.problem) is type(other.verdict.problem) and one.verdict.problem == other.verdict.problem
-    return alike or one.outcome == "timeout"
+    return one.outcome == "timeout" or is_same_kind(one.verdict.problem, other.verdict.problem)
 
 
 class ShrinkOracle:

@@ -133,9 +133,11 @@ def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     if any(len(points) != side * side for points in actual.points):
         return _problem_of_amounts({len(points) for points in actual.points}, side)
     every = np.array(actual.points)
+    if not np.isfinite(every).all():
+        return "a point is no number, or infinite"
     if (every < 0).any():
         return "a point lies outside of the unit square, below 0"
-    if not (every <= 1).all():
+    if (every > 1).any():
         return "a point lies outside of the unit square, beyond 1"
     shares = _in_squares(every[:-1], side)
     if shares is None:

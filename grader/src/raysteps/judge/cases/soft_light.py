@@ -12,6 +12,7 @@ from raysteps.judge.answers import (
     Answer,
     Tolerance,
     channels,
+    counted,
     first,
     itself,
     read_vector,
@@ -88,7 +89,8 @@ def _broken(inputs: Inputs, actual: _Draws, what: str) -> str:
 
 
 def _where(problem: str, points: Numbers) -> str:
-    """A place that no point may have. One that all points have is not of a wrong formula but of none."""
+    """A place that no point may have. One that all points have comes of no formula at all, as in a function that is
+    not written."""
     alike = len(points) > 1 and bool((points == points[0]).all())
     return f"{problem}, the same for every u" if alike else problem
 
@@ -342,7 +344,8 @@ def _normal_problem(expected: Numbers, actual: _Draws) -> str:
 
 
 def _density_problem(expected: Numbers, actual: _Draws) -> str:
-    """Who is wrong by one factor everywhere has forgotten something else than who is not, or is wrong by another."""
+    """Who is wrong by one factor everywhere has forgotten something else than who is not; so has who is wrong by
+    another factor."""
     found = actual.rows[:, _DENSITY]
     if float(np.abs(found[expected == 0]).sum()) > 0:
         return "pdf is above 0 where no light is seen"
@@ -355,7 +358,10 @@ def _density_problem(expected: Numbers, actual: _Draws) -> str:
     factor = float(ratios.mean())
     side = "large" if factor > 1 else "small"
     if float(ratios.std()) < 5e-3 * float(np.abs(ratios).mean()):
-        return f"pdf is too {side}, by the same factor for all points: it is {factor:.2g} times what it should be"
+        kind = f"pdf is too {side}, by the same factor for all points"
+        share = f"{factor:.2g}"
+        tells = share != "1" and 0.01 <= abs(factor) < 99
+        return counted(kind, f"it is {share} times what it should be") if tells else kind
     return f"pdf is too {side}, and not by the same factor for all points"
 
 
@@ -592,9 +598,9 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     slack = 1e-5 + 2e-3 * radius
     lifted = float(np.abs(spokes @ np.array(frame.forward)).max())
     if lifted > slack:
-        origin = _where("a ray starts outside of the lens's plane", origins)
+        origin = _where("a ray starts outside of the lens's plane", origins if radius else origins[:1])
     elif math.sqrt(float(squares.max())) > radius + slack:
-        origin = _where("a ray starts beyond the rim of the lens", origins)
+        origin = _where("a ray starts beyond the rim of the lens", origins if radius else origins[:1])
     elif radius:
         origin = _evenness(inputs, _DISK, _shares(squares / radius**2, _turns(of_x, of_y)))
     else:

@@ -1,7 +1,9 @@
 // Files to read beside the one that is written: contracts, tests, headers of the framework, scenes.
 
 const element = (id) => document.getElementById(id);
-const HAS_ROOM = matchMedia("(min-width: 64rem), (min-width: 40rem) and (min-height: 40rem)"); // as in play.css
+const HAS_ROOM = matchMedia("(min-width: 64rem), (min-width: 40rem) and (min-height: 40rem)"); // for a text beside the source
+
+let newest = 0; // what was asked for last
 
 /** A link that opens a file here, at a line; without scripts, or by another button of the mouse, in its own place. */
 export function textLink(name, place, line = 0) {
@@ -20,12 +22,17 @@ function open(dialog) {
 
 /** What was read is of another step. */
 export function closeText() {
+  ++newest;
   element("play-reading").close();
 }
 
 async function read(link) {
+  const turn = ++newest;
   const answer = await fetch(link.href);
   const lines = (answer.ok ? await answer.text() : "This file cannot be loaded.").split("\n");
+  if (turn !== newest) {
+    return; // another text was asked for meanwhile, or another step
+  }
   const at = Number(link.dataset.line ?? 0) - 1;
   const part = (from, to) => lines.slice(from, to).join("\n");
   const marked = make("mark", {}, part(at, at + 1));
@@ -46,8 +53,10 @@ export function openTexts(tellFault) {
   const dialog = element("play-reading");
   HAS_ROOM.addEventListener("change", () => {
     if (dialog.open) {
+      const { activeElement } = document;
       dialog.close();
       open(dialog);
+      activeElement.focus({ preventScroll: true }); // in vain where the text lies over it now
     }
   });
   dialog.addEventListener("keydown", ({ key }) => {
