@@ -369,8 +369,8 @@ class WebKit:
         return [*self._commands[_OWN_LEVEL, False], *_INCLUDES, *_WARNINGS, "-fno-caret-diagnostics"]
 
     def headers_text(self, step: Step, includes: str) -> str:
-        """What is compiled ahead of a source with these first lines. No more names than they bring: a header that is
-        missing is missed in the page as everywhere."""
+        """What is compiled ahead of a source with these first lines. What it adds to them brings names of namespace
+        compiled_ahead only: a header that is missing is missed in the page as everywhere."""
         contracts = sorted((self._project.steps / step.id).glob("*.hpp"))
         names = [name for path in contracts for name in _OF_CORE.findall(path.read_text("utf-8"))]
         ahead = [name for name in names if (self._project.root / "framework" / _AHEAD / name).is_file()]

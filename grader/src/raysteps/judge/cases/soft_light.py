@@ -597,10 +597,11 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     squares = of_x**2 + of_y**2
     slack = 1e-5 + 2e-3 * radius
     lifted = float(np.abs(spokes @ np.array(frame.forward)).max())
+    apart = origins if radius else origins[:1]  # a lens without a size is one point, and no fault
     if lifted > slack:
-        origin = _where("a ray starts outside of the lens's plane", origins if radius else origins[:1])
+        origin = _where("a ray starts outside of the lens's plane", apart)
     elif math.sqrt(float(squares.max())) > radius + slack:
-        origin = _where("a ray starts beyond the rim of the lens", origins if radius else origins[:1])
+        origin = _where("a ray starts beyond the rim of the lens", apart)
     elif radius:
         origin = _evenness(inputs, _DISK, _shares(squares / radius**2, _turns(of_x, of_y)))
     else:

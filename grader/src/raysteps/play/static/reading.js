@@ -1,7 +1,9 @@
 // Files to read beside the one that is written: contracts, tests, headers of the framework, scenes.
 
-const element = (id) => document.getElementById(id);
-const HAS_ROOM = matchMedia("(min-width: 64rem), (min-width: 40rem) and (min-height: 40rem)"); // for a text beside the source
+import { element } from "./page-data.js";
+
+/** For a text beside the source. */
+const HAS_ROOM = matchMedia("(min-width: 64rem), (min-width: 40rem) and (min-height: 40rem)");
 
 let newest = 0; // what was asked for last
 
