@@ -52,7 +52,7 @@ def test_what_they_lack_is_said_before_anything_is_made(
         raise UsageError("no network")
 
     monkeypatch.setattr(command, "make_live_figures", refuse)
-    monkeypatch.setattr(command, "dead_links", lambda *_: pytest.fail("the documents were read before"))
+    monkeypatch.setattr(command, "command_page", lambda *_: pytest.fail("pages were made before"))
     assert main(["docs", "--live", "--out", str(tmp_path / "out")]) == 2
     assert "no network" in "".join(capsys.readouterr())
     assert list(tmp_path.iterdir()) == []
