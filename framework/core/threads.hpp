@@ -2,6 +2,8 @@
 // The same work on several threads at once: for the pixels of a picture, and for the boxes of a tree.
 #include <cstddef>
 #include <functional>
+#include <type_traits>
+#include <vector>
 
 namespace raysteps {
 
@@ -65,6 +67,20 @@ void for_each_on_threads(std::size_t count, std::size_t portion, const Work& wor
 template <typename Work>
 void for_each_in_turn(std::size_t count, const Work& work) {
     share_among_threads(1, count, 1, work);
+}
+
+/// What make(0) to make(count - 1) give, called as for_each_in_turn does.
+template <typename Make>
+auto made_in_turn(std::size_t count, const Make& make) {
+    std::vector<std::invoke_result_t<Make, std::size_t>> made(count);
+    for_each_in_turn(count, [&](std::size_t i) { made[i] = make(i); });
+    return made;
+}
+
+/// What ask(question) gives for each of them, likewise.
+template <typename Question, typename Ask>
+auto answers_to(const std::vector<Question>& questions, const Ask& ask) {
+    return made_in_turn(questions.size(), [&](std::size_t i) { return ask(questions[i]); });
 }
 
 }  // namespace raysteps

@@ -61,20 +61,32 @@ public:
         int y;
     };
 
-    /// That sample of a pixel, from 0 on, as `pixels_of` follows it; of Halton's points only, below side * side.
+    /// That sample of a pixel, from 0 on, as `follow` follows it; of Halton's points only, below side * side.
     [[nodiscard]] Primary halton_sample(int x, int y, std::uint32_t index) const;
 
-    /// The tile's, row by row.
-    [[nodiscard]] std::vector<Pixel> pixels_of(const Rect& tile, Integrator& integrator) const;
-
-private:
     struct FilmSample {
         int x;  ///< of the finer picture
         int y;
         Color light;
     };
-    struct Film;
 
+    /// The samples of all pixels of an area, row by row.
+    struct Film {
+        Rect area;
+        std::vector<std::vector<FilmSample>> pixels;
+    };
+
+    /// A tile and the pixels around it whose samples reach into it, none of them followed yet.
+    [[nodiscard]] Film film_of(const Rect& tile) const;
+    /// The pixel of a film with that index; the film's others may be followed at the same time.
+    void follow(Film& film, std::size_t index, Integrator& integrator) const;
+    /// The film of a tile, all of it followed.
+    [[nodiscard]] Film followed(const Rect& tile, Integrator& integrator) const;
+
+    /// One of the tile's, when all of its film was followed.
+    [[nodiscard]] Pixel pixel_of(const Film& film, int x, int y) const;
+
+private:
     [[nodiscard]] std::vector<FilmSample> samples_of(int x, int y, Integrator& integrator) const;
     [[nodiscard]] SampleId first_sample(int x, int y) const;
     [[nodiscard]] glm::vec2 shift_of(RandomStream& random) const;

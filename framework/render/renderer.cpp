@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <utility>
 
 #include "core/threads.hpp"
 #include "render/accelerator_registry.hpp"
@@ -37,7 +38,6 @@ struct Job {
     ViewFrame frame;
     Rect crop;
     std::vector<Rect> tiles;
-    std::atomic<std::size_t> next_tile{0};
     std::mutex mutex;  ///< guards stats and progress
     Stats stats{};
     Progress progress;
@@ -73,56 +73,70 @@ Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     return mean_color(x, y, integrator, job);
 }
 
-std::vector<Color> sampled_colors(const Rect& tile, Integrator& integrator, Job& job) {
-    std::vector<Color> colors;
-    for (const FilmSampler::Pixel& pixel : job.sampler->pixels_of(tile, integrator)) {
-        const auto place = static_cast<int>(colors.size());
-        job.estimates.at(tile.x - job.crop.x + place % tile.width, tile.y - job.crop.y + place / tile.width) =
-            pixel.estimate;
-        colors.push_back(pixel.color);
-    }
-    return colors;
+Color sampled_color(int x, int y, const FilmSampler::Film& film, Job& job) {
+    const FilmSampler::Pixel pixel = job.sampler->pixel_of(film, x, y);
+    job.estimates.at(x - job.crop.x, y - job.crop.y) = pixel.estimate;
+    return pixel.color;
 }
 
-std::vector<Color> colors_of(const Rect& tile, Integrator& integrator, Job& job) {
-    if (job.sampler) {
-        return sampled_colors(tile, integrator, job);
-    }
-    std::vector<Color> colors;
+void put(const Color& color, int x, int y, Job& job) {
+    job.image.at(x - job.crop.x, y - job.crop.y) = encode(color, job.options.step.step);
+}
+
+void render_tile(const Rect& tile, Integrator& integrator, Job& job) {
+    const FilmSampler::Film film = job.sampler ? job.sampler->followed(tile, integrator) : FilmSampler::Film();
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            colors.push_back(color_of_pixel(x, y, integrator, job));
-        }
-    }
-    return colors;
-}
-
-void render_tile(const Rect& tile, Job& job) {
-    TileRays rays(job.accelerator, job.scene);
-    const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
-    std::size_t next = 0;
-    const std::vector<Color> colors = colors_of(tile, *integrator, job);
-    for (int y = tile.y; y < tile.y + tile.height; ++y) {
-        for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            job.image.at(x - job.crop.x, y - job.crop.y) = encode(colors[next++], job.options.step.step);
+            put(job.sampler ? sampled_color(x, y, film, job) : color_of_pixel(x, y, integrator, job), x, y, job);
         }
     }
 }
 
-void work(Job& job) {
-    thread_stats() = Stats{};
-    for (std::size_t tile = job.next_tile++; tile < job.tiles.size(); tile = job.next_tile++) {
-        render_tile(job.tiles[tile], job);
-        const std::scoped_lock lock(job.mutex);
-        job.progress.advance();
-        if (const TileListener listener = chosen_listener()) {
-            const Rect& done = job.tiles[tile];
-            listener({.x = done.x - job.crop.x, .y = done.y - job.crop.y, .width = done.width, .height = done.height},
-                     job.image);
-        }
-    }
+void tell(const Rect& tile, Job& job) {
     const std::scoped_lock lock(job.mutex);
-    job.stats += thread_stats();
+    job.progress.advance();
+    if (const TileListener listener = chosen_listener()) {
+        listener({.x = tile.x - job.crop.x, .y = tile.y - job.crop.y, .width = tile.width, .height = tile.height},
+                 job.image);
+    }
+}
+
+/// Calls work(i, integrator) for each number below `count`, on all threads.
+template <typename Work>
+void share(std::size_t count, Job& job, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    run_on_threads(job.options.threads, [&] {
+        thread_stats() = Stats{};
+        for (std::size_t i = next++; i < count; i = next++) {
+            TileRays rays(job.accelerator, job.scene);
+            const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
+            work(i, *integrator);
+        }
+        const std::scoped_lock lock(job.mutex);
+        job.stats += thread_stats();
+    });
+}
+
+void render_tiles(Job& job) {
+    share(job.tiles.size(), job, [&job](std::size_t i, Integrator& integrator) {
+        render_tile(job.tiles[i], integrator, job);
+        tell(job.tiles[i], job);
+    });
+}
+
+/// Tile by tile, of which all pixels wait at once.
+void render_films(Job& job) {
+    for (const Rect& tile : job.tiles) {
+        FilmSampler::Film film = job.sampler->film_of(tile);
+        share(film.pixels.size(), job,
+              [&](std::size_t i, Integrator& integrator) { job.sampler->follow(film, i, integrator); });
+        const std::vector<Rect> pixels = tiles_of(tile, 1);
+        share(pixels.size(), job, [&](std::size_t i, const Integrator& /*integrator*/) {
+            const auto [x, y, width, height] = pixels[i];
+            put(sampled_color(x, y, film, job), x, y, job);
+        });
+        tell(tile, job);
+    }
 }
 
 }  // namespace
@@ -138,20 +152,20 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const double build_seconds = seconds_since(build_start);
 
     const Clock::time_point render_start = Clock::now();
-    const bool alone = work_waits() && !is_of_part_two(options.step.step);  // there, pixels share their samples
-    std::vector<Rect> tiles = alone ? tiles_of(crop, 1) : tiles_of(crop);
+    std::optional<FilmSampler> sampler = sampler_of(scene.camera, options);
+    constexpr int k_film = 64;  // pixels share samples with their neighbours: few tiles follow few of them again
+    std::vector<Rect> tiles = !work_waits() ? tiles_of(crop) : tiles_of(crop, sampler ? k_film : 1);
     const std::size_t count = tiles.size();
     const Camera camera = finer(scene.camera, options.sample_side * options.sample_side);
     Job job{.scene = scene,
             .accelerator = *accelerator,
             .options = options,
-            .sampler = sampler_of(scene.camera, options),
+            .sampler = std::move(sampler),
             .sub_pixels = sub_pixels(options.sample_side),
             .camera = camera,
             .frame = view_frame(camera),
             .crop = crop,
             .tiles = std::move(tiles),
-            .next_tile = {},
             .mutex = {},
             .stats = {},
             .progress = Progress(count, options.show_progress),
@@ -161,7 +175,11 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     if (job.sampler) {
         job.estimates = EstimateGrid(crop.width, crop.height);
     }
-    run_on_threads(options.threads, [&job] { work(job); });
+    if (work_waits() && job.sampler) {
+        render_films(job);
+    } else {
+        render_tiles(job);
+    }
     job.progress.finish();
     return {.image = std::move(job.image),
             .stats = job.stats,

@@ -1,10 +1,10 @@
 #pragma once
 // What tests ask of hits that were found in two ways.
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 #include "core/hit_record.hpp"
+#include "core/stats.hpp"
 #include "core/threads.hpp"
 #include "testing/catch.hpp"
 #include "testing/matchers.hpp"
@@ -32,14 +32,6 @@ std::vector<Ray> rays(int count, const Make& make) {
     return made;
 }
 
-/// ask(question) for each of them, in any order: many at a time where the step is asked in a process of its own.
-template <typename Question, typename Ask>
-auto answers_to(const std::vector<Question>& questions, const Ask& ask) {
-    std::vector<std::invoke_result_t<Ask, const Question&>> answers(questions.size());
-    for_each_in_turn(questions.size(), [&](std::size_t i) { answers[i] = ask(questions[i]); });
-    return answers;
-}
-
 /// Compares a search through a tree with the search through the whole list.
 inline void check_same_hit(const Ray& ray, const std::optional<HitRecord>& expected,
                            const std::optional<HitRecord>& actual) {
@@ -60,6 +52,34 @@ void check_same_hits(const std::vector<Ray>& rays, const Expect& expect, const S
     for (std::size_t i = 0; i < rays.size(); ++i) {
         check_same_hit(rays[i], expect(rays[i]), hits[i]);
     }
+}
+
+/// Of a ray, on average.
+struct SearchWork {
+    double hits = 0.0;
+    double surface_tests = 0.0;
+    double box_tests = 0.0;
+};
+
+/// How much `search` tests for the hits of these rays.
+template <typename Search>
+SearchWork work_of_searches(const std::vector<Ray>& rays, const Search& search) {
+    const auto counted = [&search](const Ray& ray) {
+        const Stats before = thread_stats();
+        const bool hit = search(ray).has_value();
+        const Stats& after = thread_stats();
+        return SearchWork{.hits = hit ? 1.0 : 0.0,
+                          .surface_tests = static_cast<double>(after.surface_tests - before.surface_tests),
+                          .box_tests = static_cast<double>(after.box_tests - before.box_tests)};
+    };
+    const auto count = static_cast<double>(rays.size());
+    SearchWork mean;
+    for (const SearchWork& one : answers_to(rays, counted)) {
+        mean.hits += one.hits / count;
+        mean.surface_tests += one.surface_tests / count;
+        mean.box_tests += one.box_tests / count;
+    }
+    return mean;
 }
 
 }  // namespace raysteps::testing

@@ -168,9 +168,9 @@ void ProgressiveRenderer::add_samples(const FilmSampler& sampler, int before, co
         if (given_up()) {
             return;
         }
-        const Rect row{area.x, y, area.width, 1};
-        for (const FilmSampler::Pixel& pixel : sampler.pixels_of(row, integrator)) {
-            pixels.push_back(pixel);
+        const FilmSampler::Film row = sampler.followed({area.x, y, area.width, 1}, integrator);
+        for (int x = area.x; x < area.x + area.width; ++x) {
+            pixels.push_back(sampler.pixel_of(row, x, y));
         }
     }
     const std::scoped_lock lock(mutex_);

@@ -2,21 +2,25 @@
 // Asking a function of a random point many times, and what it gives then.
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/random_stream.hpp"
 #include "core/scatter.hpp"
+#include "core/threads.hpp"
 #include "worker/protocol.hpp"
 
 namespace raysteps {
 
-/// Calls draw(u) for as many points of the unit square as the question asks for.
+/// What draw(u) gives for as many points of the unit square as the question asks for.
 template <typename Draw>
-void draw_often(TokenReader& words, const Draw& draw) {
+auto draw_often(TokenReader& words, const Draw& draw) {
     const auto seed = static_cast<std::uint32_t>(words.whole());
     RandomStream random(seed);
+    std::vector<glm::vec2> points;
     for (int left = words.count(); left > 0; --left) {
-        draw(random.next_2d());
+        points.push_back(random.next_2d());
     }
+    return answers_to(points, draw);
 }
 
 /// 1 and the sample, or 0 where there is none.

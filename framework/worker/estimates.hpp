@@ -101,10 +101,10 @@ void write_estimates(const EstimatePlan& plan, TokenWriter& answer, const MakeEs
     double wanted = 8 * k_batches;
     while (sums.count() < plan.most) {
         const double rest = std::min(wanted, static_cast<double>(plan.most)) - sums.count();
-        std::vector<Estimate> found(static_cast<std::size_t>(std::ceil(rest / k_batches) * k_batches));
+        const auto count = static_cast<std::size_t>(std::ceil(rest / k_batches) * k_batches);
         const int begin = sums.count();
-        for_each_in_turn(found.size(), [&](std::size_t i) { found[i] = at(begin + static_cast<int>(i)); });
-        for (const Estimate& one : found) {
+        for (const Estimate& one :
+             made_in_turn(count, [&](std::size_t i) { return at(begin + static_cast<int>(i)); })) {
             sums.add(sums.count(), one);
         }
         const double above = sums.relative_error() / plan.precision;

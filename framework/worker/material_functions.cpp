@@ -41,7 +41,10 @@ void ask_ggx_lambda(TokenReader& words, TokenWriter& answer) {
 void ask_sample_visible_normal(TokenReader& words, TokenWriter& answer) {
     const glm::vec3 view = words.vector();
     const float alpha = words.number();
-    draw_often(words, [&](const glm::vec2& u) { answer.vector(sample_visible_normal(view, alpha, u)); });
+    const auto draw = [&](const glm::vec2& u) { return sample_visible_normal(view, alpha, u); };
+    for (const glm::vec3& normal : draw_often(words, draw)) {
+        answer.vector(normal);
+    }
 }
 
 void ask_visible_normal_pdf(TokenReader& words, TokenWriter& answer) {
@@ -65,18 +68,24 @@ void ask_metal_pdf(TokenReader& words, TokenWriter& answer) {
 
 void ask_scatter_metal(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_rough_hit(words);
-    draw_often(words, [&](const glm::vec2& u) { write_sample(answer, scatter_metal(hit, u)); });
+    for (const auto& sample : draw_often(words, [&](const glm::vec2& u) { return scatter_metal(hit, u); })) {
+        write_sample(answer, sample);
+    }
 }
 
 /// Each time with a stream of its own, and at last with the first one again.
 void ask_scatter_glass(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_rough_hit(words);
     const auto seed = static_cast<std::uint32_t>(words.whole());
-    const int times = words.count();
-    for (int number = 0; number <= times; ++number) {
-        RandomStream random(seed, static_cast<std::uint32_t>(number == times ? 0 : number));
-        write_sample(answer, scatter_glass(hit, random));
+    const auto times = static_cast<std::size_t>(words.count());
+    const auto draw = [&](std::size_t number) {
+        RandomStream random(seed, static_cast<std::uint32_t>(number));
+        return scatter_glass(hit, random);
+    };
+    for (const auto& sample : made_in_turn(times, draw)) {
+        write_sample(answer, sample);
     }
+    write_sample(answer, draw(0));
 }
 
 }  // namespace

@@ -10,7 +10,9 @@ namespace {
 
 void ask_cosine_direction(TokenReader& words, TokenWriter& answer) {
     const glm::vec3 normal = words.vector();
-    draw_often(words, [&](const glm::vec2& u) { answer.vector(cosine_direction(normal, u)); });
+    for (const auto& direction : draw_often(words, [&](const glm::vec2& u) { return cosine_direction(normal, u); })) {
+        answer.vector(direction);
+    }
 }
 
 void ask_cosine_pdf(TokenReader& words, TokenWriter& answer) {
@@ -20,7 +22,9 @@ void ask_cosine_pdf(TokenReader& words, TokenWriter& answer) {
 
 void ask_scatter_diffuse(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_hit(words);
-    draw_often(words, [&](const glm::vec2& u) { write_sample(answer, scatter_diffuse(hit, u)); });
+    for (const auto& sample : draw_often(words, [&](const glm::vec2& u) { return scatter_diffuse(hit, u); })) {
+        write_sample(answer, sample);
+    }
 }
 
 void ask_survival_probability(TokenReader& words, TokenWriter& answer) {

@@ -1,4 +1,5 @@
 // Samples, filters and the curve of a screen: step 10.
+#include "core/threads.hpp"
 #include "steps/10-sampling/sampling.hpp"
 #include "worker/functions.hpp"
 #include "worker/protocol.hpp"
@@ -27,10 +28,14 @@ Filter read_filter(TokenReader& words) {
 void ask_stratified_samples(TokenReader& words, TokenWriter& answer) {
     const int side = words.whole();
     const auto seed = static_cast<std::uint32_t>(words.whole());
-    const int times = at_least(1, words.count());
-    for (int number = 0; number <= times; ++number) {
-        RandomStream random(seed, static_cast<std::uint32_t>(number % times));
-        const std::vector<glm::vec2> points = stratified_samples(side, random);
+    const auto draw = [&](std::size_t number) {
+        RandomStream random(seed, static_cast<std::uint32_t>(number));
+        return stratified_samples(side, random);
+    };
+    std::vector<std::vector<glm::vec2>> found =
+        made_in_turn(static_cast<std::size_t>(at_least(1, words.count())), draw);
+    found.push_back(draw(0));
+    for (const std::vector<glm::vec2>& points : found) {
         answer.whole(static_cast<long long>(points.size()));
         for (const glm::vec2& point : points) {
             write_point(answer, point);

@@ -26,14 +26,6 @@ std::vector<glm::vec2> read_points(TokenReader& words) {
     return points;
 }
 
-/// Asks for each of the points, many at once where an answer has to be waited for.
-template <typename Ask>
-auto ask_all(const std::vector<glm::vec2>& points, const Ask& ask) {
-    std::vector<decltype(ask(points.front()))> found(points.size());
-    for_each_in_turn(points.size(), [&](std::size_t i) { found[i] = ask(points[i]); });
-    return found;
-}
-
 void write_samples(TokenWriter& answer, const std::vector<LightSample>& samples) {
     for (const LightSample& sample : samples) {
         answer.vector(sample.position).vector(sample.normal).number(sample.pdf);
@@ -52,7 +44,7 @@ void ask_turned_to(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_unit_disk(TokenReader& words, TokenWriter& answer) {
-    for (const glm::vec2& place : ask_all(read_points(words), unit_disk)) {
+    for (const glm::vec2& place : answers_to(read_points(words), unit_disk)) {
         answer.number(place.x).number(place.y);
     }
 }
@@ -60,7 +52,7 @@ void ask_unit_disk(TokenReader& words, TokenWriter& answer) {
 void ask_cap_direction(TokenReader& words, TokenWriter& answer) {
     const float height = words.number();
     const auto ask = [&](const glm::vec2& u) { return cap_direction(height, u); };
-    for (const glm::vec3& direction : ask_all(read_points(words), ask)) {
+    for (const glm::vec3& direction : answers_to(read_points(words), ask)) {
         answer.vector(direction);
     }
 }
@@ -78,7 +70,7 @@ void ask_sample_triangle(TokenReader& words, TokenWriter& answer) {
     const TriangleLight light{a, b, words.vector()};
     const glm::vec3 from = words.vector();
     write_samples(answer,
-                  ask_all(read_points(words), [&](const glm::vec2& u) { return sample_triangle(light, from, u); }));
+                  answers_to(read_points(words), [&](const glm::vec2& u) { return sample_triangle(light, from, u); }));
 }
 
 void ask_sample_disk(TokenReader& words, TokenWriter& answer) {
@@ -86,7 +78,8 @@ void ask_sample_disk(TokenReader& words, TokenWriter& answer) {
     const glm::vec3 normal = words.vector();
     const DiskLight light{center, normal, words.number()};
     const glm::vec3 from = words.vector();
-    write_samples(answer, ask_all(read_points(words), [&](const glm::vec2& u) { return sample_disk(light, from, u); }));
+    write_samples(answer,
+                  answers_to(read_points(words), [&](const glm::vec2& u) { return sample_disk(light, from, u); }));
 }
 
 void ask_sample_sphere(TokenReader& words, TokenWriter& answer) {
@@ -94,7 +87,7 @@ void ask_sample_sphere(TokenReader& words, TokenWriter& answer) {
     const SphereLight light{center, words.number()};
     const glm::vec3 from = words.vector();
     write_samples(answer,
-                  ask_all(read_points(words), [&](const glm::vec2& u) { return sample_sphere(light, from, u); }));
+                  answers_to(read_points(words), [&](const glm::vec2& u) { return sample_sphere(light, from, u); }));
 }
 
 void ask_sampled_light(TokenReader& words, TokenWriter& answer) {
@@ -113,7 +106,7 @@ void ask_lens_ray(TokenReader& words, TokenWriter& answer) {
     camera.lens_radius = words.number();
     camera.focal_distance = words.number();
     const auto ask = [&](const glm::vec2& u) { return lens_ray(camera, frame, ray, u); };
-    for (const Ray& one : ask_all(read_points(words), ask)) {
+    for (const Ray& one : answers_to(read_points(words), ask)) {
         write_ray(answer, one);
     }
 }

@@ -103,12 +103,13 @@ TEST_CASE("diffuse: light from all sides of the sky averages one half", "[03-pho
     Random random;
     INFO(random);
     const Fill fill = diffuse_fill(k_white, 1.0F);
-    const int count = 20000;
+    std::vector<glm::vec3> directions(20000);
+    std::generate(directions.begin(), directions.end(), [&] { return random.unit_vector_above(k_up, 0.0F); });
     float sum = 0.0F;
     float darkest = 1.0F;
     float brightest = 0.0F;
-    for (int i = 0; i < count; ++i) {
-        const float light = diffuse(fill, light_of(k_white), k_up, random.unit_vector_above(k_up, 0.0F)).r;
+    const auto light_from = [&](const glm::vec3& l) { return diffuse(fill, light_of(k_white), k_up, l).r; };
+    for (const float light : answers_to(directions, light_from)) {
         sum += light;
         darkest = std::min(darkest, light);
         brightest = std::max(brightest, light);
@@ -117,7 +118,7 @@ TEST_CASE("diffuse: light from all sides of the sky averages one half", "[03-pho
     CHECK(darkest < 0.01F);
     CHECK(brightest > 0.99F);
     INFO("the mean of the cosine over the half sphere is 1/2 (Archimedes); cosine squared would give 1/3");
-    CHECK(sum / static_cast<float>(count) == about(0.5, 0.02));
+    CHECK(sum / static_cast<float>(directions.size()) == about(0.5, 0.02));
 }
 
 TEST_CASE("specular: brightest where the eye sits in the mirror direction", "[03-phong-shading][specular]") {

@@ -241,23 +241,17 @@ TEST_CASE("closest_hit_in_octree: far fewer tests than without the tree", "[06-o
     INFO(random);
     const Scene scene = mixed_scene(random, 1000, 0);
     const Node root = columns_around(scene.surfaces());
-    const int rays = 500;
-    int hits = 0;
-    const std::uint64_t before = thread_stats().surface_tests;
-    const std::uint64_t boxes_before = thread_stats().box_tests;
-    for (int i = 0; i < rays; ++i) {
-        hits += closest_hit_in_octree(root, random.ray_towards(random.point(5.0F), 20.0F)).has_value() ? 1 : 0;
-    }
-    const double tested = static_cast<double>(thread_stats().surface_tests - before);
-    const double boxes_tested = static_cast<double>(thread_stats().box_tests - boxes_before);
+    const SearchWork work =
+        work_of_searches(rays(500, [&](int) { return random.ray_towards(random.point(5.0F), 20.0F); }),
+                         [&](const Ray& ray) { return closest_hit_in_octree(root, ray); });
     INFO("many of the rays hit something");
-    CHECK(hits > rays / 4);
+    CHECK(work.hits > 0.25);
     INFO("share of the 1000 spheres that a ray is tested against; the paper's 64 boxes reach 10 to 40 %");
-    CHECK(tested / rays / 1000.0 < 0.5);
+    CHECK(work.surface_tests / 1000.0 < 0.5);
     INFO("ask a surface with surface->hit(ray) and a box with box.hit(ray), so that the tests are counted");
-    CHECK(tested > 0.0);
+    CHECK(work.surface_tests > 0.0);
     INFO("box tests of a ray: that of the outermost box, and those of the boxes in it");
-    CHECK(boxes_tested / rays > 1.5);
+    CHECK(work.box_tests > 1.5);
 }
 
 TEST_CASE("occluded_in_octree: whether something is hit nearer than a distance", "[06-octree][occluded_in_octree]") {

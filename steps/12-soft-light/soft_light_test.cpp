@@ -2,12 +2,14 @@
 // so tests look at many of them: the bounds leave right ones room for seven standard deviations.
 #include "steps/12-soft-light/soft_light.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
 #include <numbers>
 #include <string_view>
+#include <vector>
 
 #include "core/random_stream.hpp"
 #include "testing/testing.hpp"
@@ -21,11 +23,14 @@ constexpr float k_pi = std::numbers::pi_v<float>;
 constexpr float k_largest = 1.0F - 1.0F / 16777216.0F;  // below 1, as u is
 constexpr int k_many = 20'000;
 
-/// Calls see(u) for many points of the unit square.
-void with_many(const std::function<void(const glm::vec2&)>& see) {
+/// Calls see(ask(u)) for many points u of the unit square.
+template <typename Ask, typename See>
+void with_many(const Ask& ask, const See& see) {
     RandomStream random(12);
-    for (int i = 0; i < k_many; ++i) {
-        see(random.next_2d());
+    std::vector<glm::vec2> points(k_many);
+    std::generate(points.begin(), points.end(), [&] { return random.next_2d(); });
+    for (const auto& answer : answers_to(points, ask)) {
+        see(answer);
     }
 }
 
@@ -87,7 +92,8 @@ const HitRecord k_floor{.position = {0.0F, 0.0F, 0.0F},
 /// Mean of what many samples bring to the floor, red channel; the lamp has a radiance of 1.
 float mean_light(const std::function<LightSample(const glm::vec2&)>& sample) {
     double sum = 0.0;
-    with_many([&](const glm::vec2& u) { sum += static_cast<double>(sampled_light(k_floor, k_white, sample(u)).r); });
+    with_many([&](const glm::vec2& u) { return sampled_light(k_floor, k_white, sample(u)).r; },
+              [&](float light) { sum += static_cast<double>(light); });
     return static_cast<float>(sum / k_many);
 }
 
@@ -156,15 +162,14 @@ TEST_CASE("unit_disk: points lie in the disk", "[12-soft-light][unit_disk]") {
         CAPTURE(u.x, u.y);
         CHECK(glm::length(unit_disk(u)) <= 1.0001F);  // NaN is not, either
     });
-    with_many([](const glm::vec2& u) { REQUIRE(glm::length(unit_disk(u)) <= 1.0001F); });
+    with_many(unit_disk, [](const glm::vec2& point) { REQUIRE(glm::length(point) <= 1.0001F); });
 }
 
 TEST_CASE("unit_disk: equal rings and equal slices get equally many", "[12-soft-light][unit_disk]") {
     Shares rings("rings of equal areas, from the middle");
     Shares slices("slices of equal angles");
     Shares differences("one number beside the other");
-    with_many([&](const glm::vec2& u) {
-        const glm::vec2 point = unit_disk(u);
+    with_many(unit_disk, [&](const glm::vec2& point) {
         rings.add(glm::dot(point, point) * 0.99999F);
         slices.add(turn(point.x, point.y) * 0.99999F);
         differences.add(difference(glm::dot(point, point), turn(point.x, point.y)));
@@ -194,8 +199,8 @@ TEST_CASE("cap_direction: equal solid angles get equally many", "[12-soft-light]
         Shares heights("heights of the cap, from its top");
         Shares slices("slices of equal angles");
         Shares differences("one number beside the other");
-        with_many([&](const glm::vec2& u) {
-            const glm::vec3 direction = cap_direction(height, u);
+        const auto direction_to = [&](const glm::vec2& u) { return cap_direction(height, u); };
+        with_many(direction_to, [&](const glm::vec3& direction) {
             heights.add((1.0F - direction.z) / height * 0.99999F);
             slices.add(turn(direction.x, direction.y) * 0.99999F);
             differences.add(difference((1.0F - direction.z) / height, turn(direction.x, direction.y)));
@@ -212,8 +217,8 @@ TEST_CASE("cap_direction: a cap of a billionth of the height is not lost to roun
           "[12-soft-light][cap_direction]") {
     constexpr float k_height = 1e-9F;
     double sum = 0.0;
-    with_many([&](const glm::vec2& u) {
-        const glm::vec3 direction = cap_direction(k_height, u);
+    const auto direction_to = [](const glm::vec2& u) { return cap_direction(k_height, u); };
+    with_many(direction_to, [&](const glm::vec3& direction) {
         sum += static_cast<double>(direction.x * direction.x + direction.y * direction.y);
     });
     INFO("the mean square of the sine is the height");
@@ -253,8 +258,9 @@ TEST_CASE("sample_triangle: equal areas get equally many", "[12-soft-light][samp
     std::array corners{Shares("strips of equal areas, from the first corner"),
                        Shares("strips of equal areas, from the second corner"),
                        Shares("strips of equal areas, from the third corner")};
-    with_many([&](const glm::vec2& u) {
-        const glm::vec3 place = sample_triangle(k_triangle, {1.0F, 9.0F, 1.0F}, u).position;
+    const auto draw = [](const glm::vec2& u) { return sample_triangle(k_triangle, {1.0F, 9.0F, 1.0F}, u); };
+    with_many(draw, [&](const LightSample& sample) {
+        const glm::vec3 place = sample.position;
         const float c = place.x / 4.0F;
         const float b = place.z / 3.0F;
         INFO("the part beyond a weight w of a corner has the share (1 - w)^2 of the area");
@@ -297,8 +303,9 @@ TEST_CASE("sample_disk: on the disk, with its normal and density", "[12-soft-lig
 TEST_CASE("sample_disk: equal areas get equally many", "[12-soft-light][sample_disk]") {
     Shares rings("rings of equal areas, from the middle");
     Shares slices("slices of equal angles");
-    with_many([&](const glm::vec2& u) {
-        const glm::vec3 place = sample_disk(k_disk, {0.0F, 0.0F, 0.0F}, u).position - k_disk.center;
+    const auto draw = [](const glm::vec2& u) { return sample_disk(k_disk, {0.0F, 0.0F, 0.0F}, u); };
+    with_many(draw, [&](const LightSample& sample) {
+        const glm::vec3 place = sample.position - k_disk.center;
         rings.add((place.x * place.x + place.z * place.z) / 0.25F * 0.9999F);
         slices.add(turn(place.x, place.z) * 0.99999F);
     });
@@ -338,8 +345,9 @@ TEST_CASE("sample_sphere: equal solid angles get equally many", "[12-soft-light]
     Shares heights("heights of the cap, from its top");
     Shares slices("slices of equal angles");
     const glm::vec3 from(0.0F, 0.0F, 0.0F);
-    with_many([&](const glm::vec2& u) {
-        const glm::vec3 direction = glm::normalize(sample_sphere(k_sphere, from, u).position - from);
+    const auto draw = [&](const glm::vec2& u) { return sample_sphere(k_sphere, from, u); };
+    with_many(draw, [&](const LightSample& sample) {
+        const glm::vec3 direction = glm::normalize(sample.position - from);
         heights.add((1.0F - direction.y) / 0.2F * 0.9999F);
         slices.add(turn(direction.x, direction.z) * 0.99999F);
     });
@@ -418,8 +426,9 @@ TEST_CASE("lens_ray: all rays meet in the plane of focus", "[12-soft-light][lens
 TEST_CASE("lens_ray: all points of the lens are equally likely", "[12-soft-light][lens_ray]") {
     Shares rings("rings of equal areas, from the middle");
     Shares slices("slices of equal angles");
-    with_many([&](const glm::vec2& u) {
-        const glm::vec3 place = lens_ray(k_camera, k_frame, k_slanted, u).origin - k_camera.from;
+    const auto ray_through = [](const glm::vec2& u) { return lens_ray(k_camera, k_frame, k_slanted, u); };
+    with_many(ray_through, [&](const Ray& ray) {
+        const glm::vec3 place = ray.origin - k_camera.from;
         REQUIRE(place.z == about(0.0));
         rings.add((place.x * place.x + place.y * place.y) / 0.25F * 0.9999F);
         slices.add(turn(place.x, place.y) * 0.99999F);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "testing/testing.hpp"
 
@@ -46,25 +47,46 @@ template <typename Function>
 auto over_half_sphere(const Function& f) {
     constexpr int k_rings = 120;
     constexpr int k_turns = 48;
-    decltype(f(k_up)) sum(0.0F);
+    std::vector<glm::vec3> directions;
+    std::vector<float> pieces;
     for (int ring = 0; ring < k_rings; ++ring) {
         const float t = (static_cast<float>(ring) + 0.5F) / static_cast<float>(k_rings);
-        const float piece = 2.0F * t * 2.0F * k_pi / static_cast<float>(k_rings * k_turns);
         for (int turn = 0; turn < k_turns; ++turn) {
             const float angle = 2.0F * k_pi * (static_cast<float>(turn) + 0.5F) / static_cast<float>(k_turns);
-            sum += piece * f(leaning(1.0F - t * t, angle));
+            directions.push_back(leaning(1.0F - t * t, angle));
+            pieces.push_back(2.0F * t * 2.0F * k_pi / static_cast<float>(k_rings * k_turns));
         }
+    }
+    const auto values = answers_to(directions, f);
+    decltype(f(k_up)) sum(0.0F);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        sum += pieces[i] * values[i];
     }
     return sum;
 }
 
-/// Each time with a fresh stream, as the framework does.
-template <typename Draw>
-void many_times(int count, const Draw& draw) {
-    for (int i = 0; i < count; ++i) {
-        RandomStream random(test_seed(), static_cast<std::uint32_t>(i));
-        draw(random);
+/// Calls see(draw(random)), each time with a fresh stream, as the framework does.
+template <typename Draw, typename See>
+void many_times(int count, const Draw& draw, const See& see) {
+    const auto draw_with = [&](std::size_t number) {
+        RandomStream random(test_seed(), static_cast<std::uint32_t>(number));
+        return draw(random);
+    };
+    for (const auto& drawn : made_in_turn(static_cast<std::size_t>(count), draw_with)) {
+        see(drawn);
     }
+}
+
+/// Calls see(sample) for what a path does at metal, so many times.
+template <typename See>
+void many_at_metal(int count, const HitRecord& hit, const See& see) {
+    many_times(count, [&](RandomStream& random) { return scatter_metal(hit, random.next_2d()); }, see);
+}
+
+/// The same at glass.
+template <typename See>
+void many_at_glass(int count, const HitRecord& hit, const See& see) {
+    many_times(count, [&](RandomStream& random) { return scatter_glass(hit, random); }, see);
 }
 
 }  // namespace
@@ -160,8 +182,10 @@ TEST_CASE("visible normals have length 1 and point up", "[14-materials][sample_v
         for (const float z : {1.0F, 0.6F, 0.05F}) {
             float flattest = 1.0F;
             CAPTURE(alpha, z);
-            many_times(200, [&](RandomStream& random) {
-                const glm::vec3 normal = sample_visible_normal(leaning(z), alpha, random.next_2d());
+            const auto draw = [&](RandomStream& random) {
+                return sample_visible_normal(leaning(z), alpha, random.next_2d());
+            };
+            many_times(200, draw, [&](const glm::vec3& normal) {
                 REQUIRE(glm::length(normal) == about(1.0F));
                 REQUIRE(normal.z >= 0.0F);
                 flattest = std::min(flattest, normal.z);
@@ -180,9 +204,8 @@ TEST_CASE("visible normals come as often as their density says",
         const glm::vec3 view = leaning(z);
         CAPTURE(z);
         glm::vec3 drawn(0.0F);
-        many_times(k_count, [&](RandomStream& random) {
-            drawn += sample_visible_normal(view, 0.5F, random.next_2d()) / static_cast<float>(k_count);
-        });
+        const auto draw = [&](RandomStream& random) { return sample_visible_normal(view, 0.5F, random.next_2d()); };
+        many_times(k_count, draw, [&](const glm::vec3& normal) { drawn += normal / static_cast<float>(k_count); });
         const glm::vec3 mean =
             over_half_sphere([&](const glm::vec3& normal) { return visible_normal_pdf(view, normal, 0.5F) * normal; });
         CHECK_THAT(drawn, IsNear(mean, 0.03F));
@@ -236,8 +259,7 @@ TEST_CASE("what a path does at rough metal is f cos / pdf", "[14-materials][scat
         const HitRecord hit = rough_hit(0.7F, alpha);
         const glm::vec3 view = -hit.ray_direction;
         int samples = 0;
-        many_times(300, [&](RandomStream& random) {
-            const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
+        many_at_metal(300, hit, [&](const std::optional<ScatterSample>& sample) {
             if (!sample || sample->direction.z < 0.02F) {
                 return;
             }
@@ -257,8 +279,7 @@ TEST_CASE("nearly smooth metal is a mirror", "[14-materials][scatter_metal]") {
     const HitRecord hit = rough_hit(0.6F, 0.001F);
     const ScatterSample mirror = scatter_mirror(hit);
     int close = 0;
-    many_times(100, [&](RandomStream& random) {
-        const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
+    many_at_metal(100, hit, [&](const std::optional<ScatterSample>& sample) {
         if (sample && glm::dot(sample->direction, mirror.direction) > 0.999F) {
             ++close;
             REQUIRE_THAT(sample->weight, IsNear(mirror.weight, 0.02F));
@@ -273,8 +294,7 @@ TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back
     hit.fill.color = k_white;
     constexpr int k_count = 10000;
     float sum = 0.0F;
-    many_times(k_count, [&](RandomStream& random) {
-        const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
+    many_at_metal(k_count, hit, [&](const std::optional<ScatterSample>& sample) {
         if (sample) {
             REQUIRE(sample->weight.x <= 1.0001F);
             sum += sample->weight.x;
@@ -289,11 +309,11 @@ TEST_CASE("the normal of the surface may point anywhere", "[14-materials][scatte
         hit.fill.roughness = 0.02F;
         int mirrored = 0;
         int along = 0;
-        many_times(100, [&](RandomStream& random) {
-            const std::optional<ScatterSample> sample = scatter_metal(hit, random.next_2d());
+        many_at_metal(100, hit, [&](const std::optional<ScatterSample>& sample) {
             mirrored += sample && glm::dot(sample->direction, normal) > 0.5F ? 1 : 0;
-            const std::optional<ScatterSample> through = scatter_glass(hit, random);
-            along += through && std::abs(glm::dot(through->direction, normal)) > 0.5F ? 1 : 0;
+        });
+        many_at_glass(100, hit, [&](const std::optional<ScatterSample>& sample) {
+            along += sample && std::abs(glm::dot(sample->direction, normal)) > 0.5F ? 1 : 0;
         });
         CAPTURE(normal);
         INFO("of 100 that come straight down all but a few go on nearly straight");
@@ -307,8 +327,7 @@ TEST_CASE("clear glass mirrors some paths and refracts the others", "[14-materia
     hit.front_face = true;
     constexpr int k_count = 8000;
     int mirrored = 0;
-    many_times(k_count, [&](RandomStream& random) {
-        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+    many_at_glass(k_count, hit, [&](const std::optional<ScatterSample>& sample) {
         REQUIRE(sample);
         REQUIRE(sample->specular);
         REQUIRE_THAT(sample->weight, IsNear(k_white));
@@ -335,8 +354,7 @@ TEST_CASE("glass from inside", "[14-materials][scatter_glass]") {
     hit = hit_of(k_up, {0.4F, 0.0F, 0.916515F});
     hit.front_face = false;
     int out = 0;
-    many_times(100, [&](RandomStream& stream) {
-        const std::optional<ScatterSample> sample = scatter_glass(hit, stream);
+    many_at_glass(100, hit, [&](const std::optional<ScatterSample>& sample) {
         REQUIRE(sample);
         if (sample->direction.z < 0.0F) {
             ++out;
@@ -350,8 +368,7 @@ TEST_CASE("frosted glass spreads what goes through it", "[14-materials][scatter_
     const HitRecord hit = rough_hit(1.0F, 0.4F);
     glm::vec3 least(1.0F);
     glm::vec3 most(-1.0F);
-    many_times(500, [&](RandomStream& random) {
-        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+    many_at_glass(500, hit, [&](const std::optional<ScatterSample>& sample) {
         if (sample && sample->direction.z < 0.0F) {
             least = glm::min(least, sample->direction);
             most = glm::max(most, sample->direction);
@@ -371,8 +388,7 @@ TEST_CASE("frosted glass mirrors alike at all the microfacets that it meets from
     float mirrored = 0.0F;
     float lean = 0.0F;
     glm::vec2 side(0.0F);
-    many_times(10000, [&](RandomStream& random) {
-        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+    many_at_glass(10000, hit, [&](const std::optional<ScatterSample>& sample) {
         if (!sample || sample->direction.z <= 0.0F) {
             return;
         }
@@ -394,8 +410,7 @@ TEST_CASE("frosted glass hides some of its microfacets, both ways", "[14-materia
     const HitRecord hit = rough_hit(0.4F, 0.8F);
     int mirrored = 0;
     int refracted = 0;
-    many_times(1000, [&](RandomStream& random) {
-        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+    many_at_glass(1000, hit, [&](const std::optional<ScatterSample>& sample) {
         const float z = sample ? sample->direction.z : 0.0F;
         if (std::abs(z) < 0.05F) {
             return;
@@ -414,8 +429,7 @@ TEST_CASE("frosted glass lets light out where clear glass keeps it in", "[14-mat
     hit.front_face = false;
     constexpr int k_count = 2000;
     int out = 0;
-    many_times(k_count, [&](RandomStream& random) {
-        const std::optional<ScatterSample> sample = scatter_glass(hit, random);
+    many_at_glass(k_count, hit, [&](const std::optional<ScatterSample>& sample) {
         out += sample && sample->direction.z < 0.0F ? 1 : 0;
     });
     const float share = static_cast<float>(out) / static_cast<float>(k_count);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "testing/testing.hpp"
@@ -371,11 +372,15 @@ TEST_CASE("mis_path_light: three bounces are sure, then roulette takes no light"
     constexpr int k_many = 20000;
     double light = 0.0;
     double rays = 0.0;
-    for (std::uint32_t number = 0; number < k_many; ++number) {
+    const auto follow = [&](std::size_t number) {
         PathOfStops path({Stop{.samples = {sample}}});
         path.endless = true;
-        light += static_cast<double>(light_along(path, number).x) / k_many;
-        rays += static_cast<double>(path.hits.size()) / k_many;
+        const float found = light_along(path, static_cast<std::uint32_t>(number)).x;
+        return std::pair(found, path.hits.size());
+    };
+    for (const auto& [found, hits] : made_in_turn(k_many, follow)) {
+        light += static_cast<double>(found) / k_many;
+        rays += static_cast<double>(hits) / k_many;
     }
     INFO("walls that send half of the light on: 1 + 1/2 + 1/4 + ... = 2");
     CHECK(light == about(2.0, 0.035));
@@ -386,11 +391,13 @@ TEST_CASE("mis_path_light: right on average, and less noisy than either way alon
     constexpr int k_many = 20000;
     double sum = 0.0;
     double squares = 0.0;
-    for (std::uint32_t number = 0; number < k_many; ++number) {
+    const auto follow = [](std::size_t i) {
+        const auto number = static_cast<std::uint32_t>(i);
         PlateBelowLamp plate(RandomStream(test_seed() + 1, number));
         RandomStream random(test_seed(), number);
-        const auto light =
-            static_cast<double>(mis_path_light(plate, Ray{glm::vec3(0.0F), glm::vec3(0.0F, 0.0F, -1.0F)}, random).x);
+        return mis_path_light(plate, Ray{glm::vec3(0.0F), glm::vec3(0.0F, 0.0F, -1.0F)}, random).x;
+    };
+    for (const double light : made_in_turn(k_many, follow)) {
         sum += light / k_many;
         squares += light * light / k_many;
     }
