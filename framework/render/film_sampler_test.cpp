@@ -1,10 +1,15 @@
 // Pictures of part two: the same however they are cut up, smooth, and true to the light that is there.
 #include "render/film_sampler.hpp"
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <set>
+#include <thread>
+#include <vector>
 
+#include "core/threads.hpp"
 #include "render/renderer.hpp"
 #include "testing/balls_on_floor.hpp"
 #include "testing/testing.hpp"
@@ -34,6 +39,21 @@ Scene half_dark(int side, float at) {
     return scene;
 }
 
+/// While it exists, work runs as where it waits for another program.
+class WorkThatWaits {
+public:
+    WorkThatWaits() {
+        set_work_runner([](int, const std::function<void()>& work) {
+            std::vector<std::thread> conversations(5);
+            std::generate(conversations.begin(), conversations.end(), [&] { return std::thread(work); });
+            std::for_each(conversations.begin(), conversations.end(), std::mem_fn(&std::thread::join));
+        });
+    }
+    ~WorkThatWaits() { set_work_runner(nullptr); }
+    WorkThatWaits(const WorkThatWaits&) = delete;
+    WorkThatWaits& operator=(const WorkThatWaits&) = delete;
+};
+
 constexpr Sampler k_samplers[] = {Sampler::halton, Sampler::stratified};
 constexpr Filter k_filters[] = {Filter::box, Filter::tent, Filter::mitchell};
 
@@ -55,6 +75,20 @@ TEST_CASE("Part two: a part of the picture, and any number of threads, give the 
                 REQUIRE(part.at(x, y) == whole.at(x + 7, y + 5));
             }
         }
+    }
+}
+
+TEST_CASE("Part two: where pixels wait, they are the same, and no sample is followed twice", "[render]") {
+    Scene scene = balls_on_floor();
+    scene.camera.width = 40;
+    scene.camera.height = 36;
+    for (const Filter filter : k_filters) {
+        const RenderOptions options = of_part_two({.filter = filter});
+        const Rendering alone = render(scene, options);
+        const WorkThatWaits waits;
+        const Rendering together = render(scene, options);
+        CHECK(together.image == alone.image);
+        CHECK(together.stats.eye == 40 * 36 * 4);
     }
 }
 
