@@ -270,16 +270,16 @@ TEST_CASE("Sphere: position on the surface and unit normal for any sphere", "[02
 }
 
 TEST_CASE("closest_hit: the nearest surface in any order of the list", "[02-intersection][closest_hit]") {
-    const Sphere near_red({0.0F, 0.0F, -4.0F}, 1.0F, colored({1.0F, 0.0F, 0.0F}));
-    const Sphere far_green({0.0F, 0.0F, -9.0F}, 1.0F, colored({0.0F, 1.0F, 0.0F}));
-    const Sphere behind({0.0F, 0.0F, 3.0F}, 1.0F, colored({0.0F, 0.0F, 1.0F}));
-    const Sphere beside({5.0F, 0.0F, -1.0F}, 1.0F, colored({1.0F, 1.0F, 0.0F}));
-    const Ray ray{{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -1.0F}};
+    const Sphere near_red({0.0F, 0.0F, 8.0F}, 1.0F, colored({1.0F, 0.0F, 0.0F}));
+    const Sphere far_green({0.0F, 0.0F, 3.0F}, 1.0F, colored({0.0F, 1.0F, 0.0F}));
+    const Sphere behind({0.0F, 0.0F, 15.0F}, 1.0F, colored({0.0F, 0.0F, 1.0F}));
+    const Sphere beside({5.0F, 0.0F, 11.0F}, 1.0F, colored({1.0F, 1.0F, 0.0F}));
+    const Ray ray{{0.0F, 0.0F, 12.0F}, {0.0F, 0.0F, -1.0F}};
     const std::vector<SurfaceList> orders{{&near_red, &far_green, &behind, &beside},
                                           {&far_green, &near_red, &beside, &behind},
                                           {&beside, &behind, &far_green, &near_red}};
     for (const SurfaceList& surfaces : orders) {
-        INFO("the red sphere is at distance 3, the green one at 8, the others are missed");
+        INFO("from the ray's origin it is 3 to the red sphere and 8 to the green one; the others are missed");
         const std::optional<HitRecord> hit = closest_hit(surfaces, ray);
         REQUIRE(hit.has_value());
         CHECK(hit->distance == about(3.0));
