@@ -48,7 +48,7 @@ void run_on_threads(int count, const std::function<void()>& work) {
             work();
         } catch (...) {
             const std::scoped_lock lock(guard);
-            failed = std::current_exception();
+            failed = failed ? failed : std::current_exception();
         }
     };
     std::vector<std::thread> others;
@@ -74,8 +74,13 @@ void run_in_portions(int threads, std::size_t count, std::size_t portion, Portio
     const auto most = static_cast<std::size_t>(std::max(1, threads));
     std::atomic<std::size_t> next{0};
     run_on_threads(static_cast<int>(std::min(portions, most)), [&] {
-        for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
-            work(what, begin, std::min(begin + portion, count));
+        try {
+            for (std::size_t begin = next.fetch_add(portion); begin < count; begin = next.fetch_add(portion)) {
+                work(what, begin, std::min(begin + portion, count));
+            }
+        } catch (...) {
+            next = count;  // nobody asks for the rest
+            throw;
         }
     });
 }

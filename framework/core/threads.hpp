@@ -69,17 +69,19 @@ void for_each_in_turn(std::size_t count, const Work& work) {
     share_among_threads(1, count, 1, work);
 }
 
-/// What make(0) to make(count - 1) give, called as for_each_in_turn does.
+/// What make(0) to make(count - 1) give, in this order, called as for_each_in_turn does. Surfaces, textures and trees
+/// that a step is asked about are not made in `make`, but before, and stay as they are: a box takes those at the same
+/// address for the same meanwhile.
 template <typename Make>
-auto made_in_turn(std::size_t count, const Make& make) {
-    std::vector<std::invoke_result_t<Make, std::size_t>> made(count);
+auto made_in_turn(std::size_t count, Make make) {
+    std::vector<std::remove_cvref_t<std::invoke_result_t<Make&, std::size_t>>> made(count);
     for_each_in_turn(count, [&](std::size_t i) { made[i] = make(i); });
     return made;
 }
 
-/// What ask(question) gives for each of them, likewise.
+/// What ask(question) gives for each of them, in their order; asked as made_in_turn makes.
 template <typename Question, typename Ask>
-auto answers_to(const std::vector<Question>& questions, const Ask& ask) {
+auto answers_to(const std::vector<Question>& questions, Ask ask) {
     return made_in_turn(questions.size(), [&](std::size_t i) { return ask(questions[i]); });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "testing/catch.hpp"
@@ -52,6 +53,25 @@ TEST_CASE("Work within work takes no more threads than there are", "[threads]") 
     CHECK(done == 8 * 8 * 8);
     CHECK(most <= 3);
     CHECK(SpareThreads(100).count() == 2);  // all were given back
+}
+
+TEST_CASE("What is made in turn lies in the order of its numbers", "[threads]") {
+    CHECK(made_in_turn(4, [](std::size_t i) { return 10 * i; }) == std::vector<std::size_t>{0, 10, 20, 30});
+    CHECK(made_in_turn(0, [](std::size_t i) { return i; }).empty());
+    const std::vector<std::string> words{"a", "bcd", ""};
+    CHECK(answers_to(words, [](const std::string& word) { return word.size(); }) == std::vector<std::size_t>{1, 3, 0});
+}
+
+TEST_CASE("Of several exceptions the first comes back, and what is left is not begun", "[threads]") {
+    std::vector<std::size_t> begun;
+    const auto work = [&](std::size_t i) {
+        begun.push_back(i);
+        if (i >= 2) {
+            throw std::runtime_error(std::to_string(i));
+        }
+    };
+    CHECK_THROWS_WITH(for_each_in_turn(100, work), "2");
+    CHECK(begun == std::vector<std::size_t>{0, 1, 2});
 }
 
 TEST_CASE("An exception in work within work comes back, and the threads with it", "[threads]") {

@@ -150,7 +150,7 @@ void Wire::run_together(int most, const std::function<void()>& work) {
         try {
             work();
         } catch (...) {
-            failed = std::current_exception();
+            failed = failed ? failed : std::current_exception();
         }
         ++ended;
     };

@@ -64,16 +64,12 @@ Rect grown(const Rect& tile, int margin, const Camera& fine_camera) {
     return {.x = left, .y = top, .width = right - left, .height = bottom - top};
 }
 
-const std::vector<FilmSampler::FilmSample>& samples_at(const FilmSampler::Film& film, int x, int y) {
-    return film.pixels[static_cast<std::size_t>((y - film.area.y) * film.area.width + x - film.area.x)];
-}
-
 /// From the middle of the pixel, no farther than the filter reaches.
 std::vector<PixelSample> samples_near(const FilmSampler::Film& film, int x, int y, const Rect& around, float reach) {
     std::vector<PixelSample> found;
     for (int row = around.y; row < around.y + around.height; ++row) {
         for (int column = around.x; column < around.x + around.width; ++column) {
-            for (const FilmSampler::FilmSample& sample : samples_at(film, column, row)) {
+            for (const FilmSampler::FilmSample& sample : film.pixels[film.place_of(column, row)]) {
                 const glm::vec2 offset(offset_of(sample.x, x), offset_of(sample.y, y));
                 if (std::max(std::abs(offset.x), std::abs(offset.y)) <= reach) {
                     found.push_back({.offset = offset, .light = sample.light});
@@ -173,22 +169,22 @@ PixelEstimate FilmSampler::estimate_of(const std::vector<FilmSample>& samples) {
     return estimate;
 }
 
-FilmSampler::Film FilmSampler::film_of(const Rect& tile) const {
+FilmSampler::Film FilmSampler::empty_film(const Rect& tile) const {
     const Rect area = grown(tile, margin_of(options_.filter), fine_camera_);
     const std::size_t count = static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height);
     return {.area = area, .pixels = std::vector<std::vector<FilmSample>>(count)};
 }
 
-void FilmSampler::follow(Film& film, std::size_t index, Integrator& integrator) const {
-    const auto place = static_cast<int>(index);
-    film.pixels[index] =
-        samples_of(film.area.x + place % film.area.width, film.area.y + place / film.area.width, integrator);
+void FilmSampler::sample_pixel(Film& film, int x, int y, Integrator& integrator) const {
+    film.pixels[film.place_of(x, y)] = samples_of(x, y, integrator);
 }
 
-FilmSampler::Film FilmSampler::followed(const Rect& tile, Integrator& integrator) const {
-    Film film = film_of(tile);
-    for (std::size_t index = 0; index < film.pixels.size(); ++index) {
-        follow(film, index, integrator);
+FilmSampler::Film FilmSampler::sampled_film(const Rect& tile, Integrator& integrator) const {
+    Film film = empty_film(tile);
+    for (int y = film.area.y; y < film.area.y + film.area.height; ++y) {
+        for (int x = film.area.x; x < film.area.x + film.area.width; ++x) {
+            sample_pixel(film, x, y, integrator);
+        }
     }
     return film;
 }
@@ -196,7 +192,7 @@ FilmSampler::Film FilmSampler::followed(const Rect& tile, Integrator& integrator
 FilmSampler::Pixel FilmSampler::pixel_of(const Film& film, int x, int y) const {
     const Rect around = grown({.x = x, .y = y, .width = 1, .height = 1}, margin_of(options_.filter), fine_camera_);
     const std::vector<PixelSample> near = samples_near(film, x, y, around, reach_of(options_.filter));
-    return {.color = reconstruct(near, options_.filter), .estimate = estimate_of(samples_at(film, x, y))};
+    return {.color = reconstruct(near, options_.filter), .estimate = estimate_of(film.pixels[film.place_of(x, y)])};
 }
 
 }  // namespace raysteps

@@ -1,5 +1,6 @@
 #pragma once
 // Part two: the samples of all pixels, drawn, followed and put together by step 10.
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -61,7 +62,7 @@ public:
         int y;
     };
 
-    /// That sample of a pixel, from 0 on, as `follow` follows it; of Halton's points only, below side * side.
+    /// That sample of a pixel, from 0 on, as `sample_pixel` follows it; of Halton's points only, below side * side.
     [[nodiscard]] Primary halton_sample(int x, int y, std::uint32_t index) const;
 
     struct FilmSample {
@@ -74,16 +75,20 @@ public:
     struct Film {
         Rect area;
         std::vector<std::vector<FilmSample>> pixels;
+
+        [[nodiscard]] std::size_t place_of(int x, int y) const {
+            return static_cast<std::size_t>((y - area.y) * area.width + x - area.x);
+        }
     };
 
-    /// A tile and the pixels around it whose samples reach into it, none of them followed yet.
-    [[nodiscard]] Film film_of(const Rect& tile) const;
-    /// The pixel of a film with that index; the film's others may be followed at the same time.
-    void follow(Film& film, std::size_t index, Integrator& integrator) const;
-    /// The film of a tile, all of it followed.
-    [[nodiscard]] Film followed(const Rect& tile, Integrator& integrator) const;
+    /// Of a tile and the pixels around it whose samples reach into it, still without samples.
+    [[nodiscard]] Film empty_film(const Rect& tile) const;
+    /// Follows the samples of one pixel of the film; others may be sampled at the same time.
+    void sample_pixel(Film& film, int x, int y, Integrator& integrator) const;
+    /// The film of a tile with all samples.
+    [[nodiscard]] Film sampled_film(const Rect& tile, Integrator& integrator) const;
 
-    /// One of the tile's, when all of its film was followed.
+    /// One of the tile's pixels, from a film with all samples.
     [[nodiscard]] Pixel pixel_of(const Film& film, int x, int y) const;
 
 private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <set>
@@ -43,15 +44,27 @@ Scene half_dark(int side, float at) {
 class WorkThatWaits {
 public:
     WorkThatWaits() {
+        g_runs = 0;
         set_work_runner([](int, const std::function<void()>& work) {
-            std::vector<std::thread> conversations(5);
-            std::generate(conversations.begin(), conversations.end(), [&] { return std::thread(work); });
-            std::for_each(conversations.begin(), conversations.end(), std::mem_fn(&std::thread::join));
+            ++g_runs;
+            std::vector<std::thread> conversations;
+            for (int i = 0; i < 5; ++i) {
+                conversations.emplace_back(work);
+            }
+            for (std::thread& conversation : conversations) {
+                conversation.join();
+            }
         });
     }
     ~WorkThatWaits() { set_work_runner(nullptr); }
     WorkThatWaits(const WorkThatWaits&) = delete;
     WorkThatWaits& operator=(const WorkThatWaits&) = delete;
+
+    /// How often many waited at once.
+    [[nodiscard]] static int runs() { return g_runs; }
+
+private:
+    inline static int g_runs = 0;
 };
 
 constexpr Sampler k_samplers[] = {Sampler::halton, Sampler::stratified};
@@ -78,17 +91,26 @@ TEST_CASE("Part two: a part of the picture, and any number of threads, give the 
     }
 }
 
-TEST_CASE("Part two: where pixels wait, they are the same, and no sample is followed twice", "[render]") {
+TEST_CASE("Part two: pixels that wait at once are the same, and few samples are followed twice", "[render]") {
     Scene scene = balls_on_floor();
-    scene.camera.width = 40;
-    scene.camera.height = 36;
+    scene.camera.width = 80;
+    scene.camera.height = 20;
     for (const Filter filter : k_filters) {
-        const RenderOptions options = of_part_two({.filter = filter});
+        RenderOptions options = of_part_two({.filter = filter});
+        options.crop = Rect{.x = 4, .y = 5, .width = 70, .height = 6};  // two tiles, of 64 and 6 columns
         const Rendering alone = render(scene, options);
         const WorkThatWaits waits;
         const Rendering together = render(scene, options);
+        CHECK(waits.runs() == 2 * 2);
         CHECK(together.image == alone.image);
-        CHECK(together.stats.eye == 40 * 36 * 4);
+        CHECK(std::ranges::equal(together.estimates.pixels(), alone.estimates.pixels(),
+                                 [](const PixelEstimate& a, const PixelEstimate& b) {
+                                     return a.mean == b.mean && a.variance == b.variance;
+                                 }));
+        const int margin = filter == Filter::box ? 0 : filter == Filter::tent ? 1 : 2;
+        INFO("pixels that reach into the first tile, and those that reach into the second");
+        const int columns = (64 + 2 * margin) + (6 + 2 * margin);
+        CHECK(together.stats.eye == static_cast<std::uint64_t>(columns * (6 + 2 * margin) * 4));
     }
 }
 

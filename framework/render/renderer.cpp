@@ -57,11 +57,12 @@ Color mean_color(int x, int y, Integrator& integrator, const Job& job) {
     return sum / static_cast<float>(count);
 }
 
+bool is_sampled(const RenderOptions& options) { return is_of_part_two(options.step.step) && !options.measure_cost; }
+
 std::optional<FilmSampler> sampler_of(const Camera& camera, const RenderOptions& options) {
-    return is_of_part_two(options.step.step) && !options.measure_cost
-               ? std::optional<FilmSampler>(std::in_place, camera_of_step(camera, options.step.step),
-                                            options.sample_side, options.sampling)
-               : std::nullopt;
+    return is_sampled(options) ? std::optional<FilmSampler>(std::in_place, camera_of_step(camera, options.step.step),
+                                                            options.sample_side, options.sampling)
+                               : std::nullopt;
 }
 
 Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
@@ -73,26 +74,30 @@ Color color_of_pixel(int x, int y, Integrator& integrator, Job& job) {
     return mean_color(x, y, integrator, job);
 }
 
-Color sampled_color(int x, int y, const FilmSampler::Film& film, Job& job) {
-    const FilmSampler::Pixel pixel = job.sampler->pixel_of(film, x, y);
-    job.estimates.at(x - job.crop.x, y - job.crop.y) = pixel.estimate;
-    return pixel.color;
-}
-
-void put(const Color& color, int x, int y, Job& job) {
+void set_pixel(int x, int y, const Color& color, Job& job) {
     job.image.at(x - job.crop.x, y - job.crop.y) = encode(color, job.options.step.step);
 }
 
+void set_pixel_from(const FilmSampler::Film& film, int x, int y, Job& job) {
+    const FilmSampler::Pixel pixel = job.sampler->pixel_of(film, x, y);
+    job.estimates.at(x - job.crop.x, y - job.crop.y) = pixel.estimate;
+    set_pixel(x, y, pixel.color, job);
+}
+
 void render_tile(const Rect& tile, Integrator& integrator, Job& job) {
-    const FilmSampler::Film film = job.sampler ? job.sampler->followed(tile, integrator) : FilmSampler::Film();
+    const FilmSampler::Film film = job.sampler ? job.sampler->sampled_film(tile, integrator) : FilmSampler::Film();
     for (int y = tile.y; y < tile.y + tile.height; ++y) {
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            put(job.sampler ? sampled_color(x, y, film, job) : color_of_pixel(x, y, integrator, job), x, y, job);
+            if (job.sampler) {
+                set_pixel_from(film, x, y, job);
+            } else {
+                set_pixel(x, y, color_of_pixel(x, y, integrator, job), job);
+            }
         }
     }
 }
 
-void tell(const Rect& tile, Job& job) {
+void announce(const Rect& tile, Job& job) {
     const std::scoped_lock lock(job.mutex);
     job.progress.advance();
     if (const TileListener listener = chosen_listener()) {
@@ -101,16 +106,17 @@ void tell(const Rect& tile, Job& job) {
     }
 }
 
-/// Calls work(i, integrator) for each number below `count`, on all threads.
+/// Calls work(part, integrator) for all parts of the picture, on all threads. Each part has an integrator of its own:
+/// so what is counted does not hang on who takes it.
 template <typename Work>
-void share(std::size_t count, Job& job, const Work& work) {
+void for_each_part(const std::vector<Rect>& parts, Job& job, const Work& work) {
     std::atomic<std::size_t> next{0};
     run_on_threads(job.options.threads, [&] {
         thread_stats() = Stats{};
-        for (std::size_t i = next++; i < count; i = next++) {
+        for (std::size_t i = next++; i < parts.size(); i = next++) {
             TileRays rays(job.accelerator, job.scene);
             const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
-            work(i, *integrator);
+            work(parts[i], *integrator);
         }
         const std::scoped_lock lock(job.mutex);
         job.stats += thread_stats();
@@ -118,25 +124,32 @@ void share(std::size_t count, Job& job, const Work& work) {
 }
 
 void render_tiles(Job& job) {
-    share(job.tiles.size(), job, [&job](std::size_t i, Integrator& integrator) {
-        render_tile(job.tiles[i], integrator, job);
-        tell(job.tiles[i], job);
+    for_each_part(job.tiles, job, [&job](const Rect& tile, Integrator& integrator) {
+        render_tile(tile, integrator, job);
+        announce(tile, job);
     });
 }
 
-/// Tile by tile, of which all pixels wait at once.
-void render_films(Job& job) {
+/// One tile after the other: first all its samples, then all its pixels, many at once.
+void render_tiles_that_wait(Job& job) {
     for (const Rect& tile : job.tiles) {
-        FilmSampler::Film film = job.sampler->film_of(tile);
-        share(film.pixels.size(), job,
-              [&](std::size_t i, Integrator& integrator) { job.sampler->follow(film, i, integrator); });
-        const std::vector<Rect> pixels = tiles_of(tile, 1);
-        share(pixels.size(), job, [&](std::size_t i, const Integrator& /*integrator*/) {
-            const auto [x, y, width, height] = pixels[i];
-            put(sampled_color(x, y, film, job), x, y, job);
+        FilmSampler::Film film = job.sampler->empty_film(tile);
+        for_each_part(tiles_of(film.area, 1), job, [&](const Rect& pixel, Integrator& integrator) {
+            job.sampler->sample_pixel(film, pixel.x, pixel.y, integrator);
         });
-        tell(tile, job);
+        const std::vector<Rect> pixels = tiles_of(tile, 1);
+        for_each_in_turn(pixels.size(), [&](std::size_t i) { set_pixel_from(film, pixels[i].x, pixels[i].y, job); });
+        announce(tile, job);
     }
+}
+
+/// Where work waits for another program, small parts wait at once. In part two pixels share samples with their
+/// neighbours: large tiles follow few of them again.
+int side_of_tiles(const RenderOptions& options) {
+    if (!work_waits()) {
+        return 16;
+    }
+    return is_sampled(options) ? 64 : 1;
 }
 
 }  // namespace
@@ -152,15 +165,13 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
     const double build_seconds = seconds_since(build_start);
 
     const Clock::time_point render_start = Clock::now();
-    std::optional<FilmSampler> sampler = sampler_of(scene.camera, options);
-    constexpr int k_film = 64;  // pixels share samples with their neighbours: few tiles follow few of them again
-    std::vector<Rect> tiles = !work_waits() ? tiles_of(crop) : tiles_of(crop, sampler ? k_film : 1);
+    std::vector<Rect> tiles = tiles_of(crop, side_of_tiles(options));
     const std::size_t count = tiles.size();
     const Camera camera = finer(scene.camera, options.sample_side * options.sample_side);
     Job job{.scene = scene,
             .accelerator = *accelerator,
             .options = options,
-            .sampler = std::move(sampler),
+            .sampler = sampler_of(scene.camera, options),
             .sub_pixels = sub_pixels(options.sample_side),
             .camera = camera,
             .frame = view_frame(camera),
@@ -176,7 +187,7 @@ Rendering render(const Scene& scene, const RenderOptions& options) {
         job.estimates = EstimateGrid(crop.width, crop.height);
     }
     if (work_waits() && job.sampler) {
-        render_films(job);
+        render_tiles_that_wait(job);
     } else {
         render_tiles(job);
     }

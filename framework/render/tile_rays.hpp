@@ -1,5 +1,5 @@
 #pragma once
-// The rays of the pixels of one tile, sent one pixel after the other.
+// The rays of the pixels of one part of a picture, sent one pixel after the other.
 #include <vector>
 
 #include "core/scene.hpp"

@@ -2,6 +2,7 @@
 #include "testing/testing.hpp"
 
 #include <limits>
+#include <optional>
 
 using namespace raysteps;
 using namespace raysteps::testing;
@@ -45,6 +46,18 @@ TEST_CASE("FakeScene answers both questions from one function, and CountingQuery
     CHECK_FALSE(scene.occluded({}, 3.0F));
     CHECK(scene.closest_hit({}).has_value());
     CHECK(rays == 3);
+}
+
+TEST_CASE("The work of searches is the mean of a ray", "[testing]") {
+    const auto search = [](const Ray& ray) {
+        thread_stats().surface_tests += 3;
+        thread_stats().box_tests += ray.origin.x > 0.0F ? 8 : 4;
+        return ray.origin.x > 0.0F ? std::optional(HitRecord{}) : std::nullopt;
+    };
+    const SearchWork work = work_of_searches({{{1.0F, 0.0F, 0.0F}, {}}, {{-1.0F, 0.0F, 0.0F}, {}}}, search);
+    CHECK(work.hits == 0.5);
+    CHECK(work.surface_tests == 3.0);
+    CHECK(work.box_tests == 6.0);
 }
 
 TEST_CASE("FakeTracer answers from a list and remembers", "[testing]") {

@@ -168,7 +168,7 @@ void ProgressiveRenderer::add_samples(const FilmSampler& sampler, int before, co
         if (given_up()) {
             return;
         }
-        const FilmSampler::Film row = sampler.followed({area.x, y, area.width, 1}, integrator);
+        const FilmSampler::Film row = sampler.sampled_film({area.x, y, area.width, 1}, integrator);
         for (int x = area.x; x < area.x + area.width; ++x) {
             pixels.push_back(sampler.pixel_of(row, x, y));
         }

@@ -1,6 +1,7 @@
 #pragma once
 // Asking a function of a random point many times, and what it gives then.
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "core/color.hpp"
 #include "core/random_stream.hpp"

@@ -1,4 +1,9 @@
 // Mirrors, glass and rough metal: step 14.
+#include <cstddef>
+#include <cstdint>
+
+#include "core/random_stream.hpp"
+#include "core/threads.hpp"
 #include "steps/14-materials/materials.hpp"
 #include "worker/draws.hpp"
 #include "worker/functions.hpp"

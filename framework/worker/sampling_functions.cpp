@@ -1,4 +1,9 @@
 // Samples, filters and the curve of a screen: step 10.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+#include "core/random_stream.hpp"
 #include "core/threads.hpp"
 #include "steps/10-sampling/sampling.hpp"
 #include "worker/functions.hpp"

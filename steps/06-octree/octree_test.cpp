@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/scene.hpp"
-#include "core/stats.hpp"
 #include "testing/testing.hpp"
 #include "testing/trees.hpp"
 

@@ -25,7 +25,7 @@ constexpr int k_many = 20'000;
 
 /// Calls see(ask(u)) for many points u of the unit square.
 template <typename Ask, typename See>
-void with_many(const Ask& ask, const See& see) {
+void with_many(Ask ask, See see) {
     RandomStream random(12);
     std::vector<glm::vec2> points(k_many);
     std::generate(points.begin(), points.end(), [&] { return random.next_2d(); });

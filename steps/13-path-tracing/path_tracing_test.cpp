@@ -112,16 +112,16 @@ struct Means {
     double rays = 0.0;
 };
 Means means_of(const std::vector<Stop>& stops, int count = k_many) {
-    PathOfStops path(stops);
-    path.endless = true;
-    std::vector<PathOfStops> paths(static_cast<std::size_t>(count), path);
-    std::vector<Color> lights(paths.size());
-    for_each_in_turn(paths.size(),
-                     [&](std::size_t i) { lights[i] = light_along(paths[i], static_cast<std::uint32_t>(i)); });
+    const auto follow = [&](std::size_t number) {
+        PathOfStops path(stops);
+        path.endless = true;
+        const float light = light_along(path, static_cast<std::uint32_t>(number)).x;
+        return Means{.light = light, .rays = static_cast<double>(path.rays)};
+    };
     Means means;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        means.light += static_cast<double>(lights[i].x) / count;
-        means.rays += static_cast<double>(paths[i].rays) / count;
+    for (const Means& one : made_in_turn(static_cast<std::size_t>(count), follow)) {
+        means.light += one.light / count;
+        means.rays += one.rays / count;
     }
     return means;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -45,22 +46,17 @@ HitRecord rough_hit(float z, float alpha) {
 /// near the top, where GGX is steep.
 template <typename Function>
 auto over_half_sphere(const Function& f) {
-    constexpr int k_rings = 120;
-    constexpr int k_turns = 48;
-    std::vector<glm::vec3> directions;
-    std::vector<float> pieces;
-    for (int ring = 0; ring < k_rings; ++ring) {
-        const float t = (static_cast<float>(ring) + 0.5F) / static_cast<float>(k_rings);
-        for (int turn = 0; turn < k_turns; ++turn) {
-            const float angle = 2.0F * k_pi * (static_cast<float>(turn) + 0.5F) / static_cast<float>(k_turns);
-            directions.push_back(leaning(1.0F - t * t, angle));
-            pieces.push_back(2.0F * t * 2.0F * k_pi / static_cast<float>(k_rings * k_turns));
-        }
-    }
-    const auto values = answers_to(directions, f);
+    constexpr std::size_t k_rings = 120;
+    constexpr std::size_t k_turns = 48;
+    const auto part = [&f](std::size_t i) {
+        const float t = (static_cast<float>(i / k_turns) + 0.5F) / static_cast<float>(k_rings);
+        const float angle = 2.0F * k_pi * (static_cast<float>(i % k_turns) + 0.5F) / static_cast<float>(k_turns);
+        const float piece = 2.0F * t * 2.0F * k_pi / static_cast<float>(k_rings * k_turns);
+        return piece * f(leaning(1.0F - t * t, angle));
+    };
     decltype(f(k_up)) sum(0.0F);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        sum += pieces[i] * values[i];
+    for (const auto& one : made_in_turn(k_rings * k_turns, part)) {
+        sum += one;
     }
     return sum;
 }
