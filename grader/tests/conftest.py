@@ -15,7 +15,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _LONG = ("slow", "xdist_group")  # the marks of what takes long
 
-pytest_plugins = ["browser", "students_kit"]
+pytest_plugins = ["browser", "play_pages", "students_kit"]
 
 Sources = dict[str, str]
 MakeSubmission = Callable[[str, Sources], Path]

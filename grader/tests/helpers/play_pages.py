@@ -3,11 +3,16 @@
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from browser import Watched
 
 from raysteps.common.errors import UsageError
+from raysteps.course.project import Project
+from raysteps.play.packages import registry_of
+from raysteps.play.play_page import PlayPage, PlayServer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
@@ -69,3 +74,43 @@ def middle(thing: "Locator") -> tuple[float, float]:
     box = thing.bounding_box()
     assert box is not None
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+# The whole page, served, with step 01 in its editor.
+
+POINT = "return ray.origin + distance * ray.direction;"  # of its reference
+
+
+@pytest.fixture(scope="session")
+def site(project: Project) -> Path:
+    """Made once, whatever tests want of it."""
+    with with_packages():
+        return PlayPage(project, registry_of(None)).make()
+
+
+@pytest.fixture
+def server(site: Path) -> Iterator[PlayServer]:
+    found = PlayServer(site)
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def page(watched: Watched, server: PlayServer) -> "Page":
+    """Step 01, when its stub was compiled, tested and drawn."""
+    watched.allowed += [server.address, f"blob:{server.address.rstrip('/')}"]
+    page = watched.open(server.address)
+    status_says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=STARTED)
+    return page
+
+
+def status_says(page: "Page", pattern: str, timeout: float = 60_000) -> None:
+    """Waits until the status line of the page does."""
+    says(page.locator("#play-status"), pattern, timeout)
+
+
+def source_of(page: "Page") -> str:
+    """What is seen in the editor."""
+    return str(
+        page.evaluate("document.getElementById('play-editor').shadowRoot.querySelector('.cm-content').innerText")
+    )

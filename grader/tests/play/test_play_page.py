@@ -1,4 +1,4 @@
-"""The whole page in a real browser: write, compile, test, draw, stop, keep."""
+"""The page to work in, in a real browser: write, compile, test, draw, stop."""
 
 import os
 import re
@@ -6,27 +6,22 @@ import signal
 import subprocess
 import sys
 import threading
-import zipfile
-from collections.abc import Iterator
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.error import HTTPError
 from urllib.request import urlopen
 
 import pytest
-from browser import Watched, assert_accessible, assert_large_enough, assert_no_sideways_scrolling, broken_words
-from play_pages import STARTED, save, says, with_packages, write
+from browser import Watched, assert_accessible, assert_large_enough, assert_no_sideways_scrolling
+from play_pages import POINT, STARTED, save, source_of, status_says, write
 
 from raysteps.cli.render import build_program
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import missing_message, undefined_message
-from raysteps.play.packages import registry_of
-from raysteps.play.play_page import PlayPage, PlayServer, publish
+from raysteps.play.play_page import PlayServer, publish
 from raysteps.report.wording import inspect_options
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.cmake import release_tree
@@ -35,14 +30,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
-
-_POINT = "return ray.origin + distance * ray.direction;"
-
-
-@pytest.fixture(scope="module")
-def site(project: Project) -> Path:
-    with with_packages():
-        return PlayPage(project, registry_of(None)).make()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="interrupts are another matter there")
@@ -64,32 +51,6 @@ def test_the_command_serves_the_page_until_it_is_ended(site: Path) -> None:
         program.kill()
 
 
-@pytest.fixture
-def server(site: Path) -> Iterator[PlayServer]:
-    found = PlayServer(site)
-    yield found
-    found.close()
-
-
-@pytest.fixture
-def page(watched: Watched, server: PlayServer) -> "Page":
-    """Step 01, when its stub was compiled, tested and drawn."""
-    watched.allowed += [server.address, f"blob:{server.address.rstrip('/')}"]
-    page = watched.open(server.address)
-    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=STARTED)
-    return page
-
-
-def _says(page: "Page", pattern: str, timeout: float = 60_000) -> None:
-    says(page.locator("#play-status"), pattern, timeout)
-
-
-def _source(page: "Page") -> str:
-    return str(
-        page.evaluate("document.getElementById('play-editor').shadowRoot.querySelector('.cm-content').innerText")
-    )
-
-
 def test_the_right_lines_give_the_picture_and_stay(
     watched: Watched, page: "Page", solved: dict[str, str], steps: list[Step], tmp_path: Path
 ) -> None:
@@ -97,13 +58,13 @@ def test_the_right_lines_give_the_picture_and_stay(
 
     right = solved["01-camera-rays"]
     save(page, right)
-    _says(page, r"Step 01 is right: 12 of 12 tests pass, 2 of 2 pictures are right\.")
+    status_says(page, r"Step 01 is right: 12 of 12 tests pass, 2 of 2 pictures are right\.")
     expect(page.locator("#play-first h3")).to_contain_text("✓ right")
     expect(page.locator("#play-first compare-pictures")).to_have_attribute("data-state", "ready")
     assert_accessible(page)
     page.reload()
-    _says(page, r"Step 01 is right", timeout=STARTED)
-    assert _POINT in _source(page)
+    status_says(page, r"Step 01 is right", timeout=STARTED)
+    assert POINT in source_of(page)
     with page.expect_download() as download:
         page.get_by_role("button", name="Save as zip").click()
     download.value.save_as(tmp_path / "my-steps.zip")
@@ -114,8 +75,8 @@ def test_the_right_lines_give_the_picture_and_stay(
 def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
-    save(page, solved["01-camera-rays"].replace(_POINT, "return ray.origin + ray.direction;"))
-    _says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
+    save(page, solved["01-camera-rays"].replace(POINT, "return ray.origin + ray.direction;"))
+    status_says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
     failed = page.locator("#play-tests .panel")
     expect(failed).to_have_count(1)
     expect(failed).to_contain_text("point_at walks along the ray")
@@ -135,55 +96,14 @@ def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str
     expect(page.get_by_role("dialog")).to_contain_text("glm::vec3 point_at(const Ray& ray, float distance);")
 
 
-def _stand_side_by_side(page: "Page", *rooms: str) -> bool:
-    """Each ends where the next begins, or before."""
-    boxes = [page.locator(room).bounding_box() for room in rooms]
-    return all(one and other and one["x"] + one["width"] <= other["x"] for one, other in pairwise(boxes))
-
-
-def test_a_text_to_read_stands_beside_what_is_written(page: "Page") -> None:
-    """Where there is room; on a phone it lies over the page."""
-    from playwright.sync_api import expect
-
-    text, handout = page.locator("#play-reading"), page.locator("#play-handout")
-    link = handout.get_by_role("link", name="camera_rays.hpp")
-    link.click()
-    expect(page.locator("#play-reading-text")).to_be_focused()
-    assert_accessible(page)
-    expect(handout).to_be_hidden()
-    assert _stand_side_by_side(page, "#play-reading", "#play-source")
-    write(page, "// while it can be read\n")
-    expect(page.locator(".cm-content")).to_have_text("// while it can be read")
-    expect(text).to_be_visible()
-    page.locator("#play-reading-text").press("Escape")
-    expect(text).to_be_hidden()
-    expect(handout).to_be_visible()
-    expect(link).to_be_focused()
-    page.set_viewport_size({"width": 1920, "height": 1080})
-    link.click()
-    assert _stand_side_by_side(page, "#play-handout", "#play-reading", "#play-source")
-    for width, height, is_modal in ((768, 1024, False), (390, 844, True)):
-        page.set_viewport_size({"width": width, "height": height})
-        page.wait_for_function(
-            "wanted => document.querySelector('#play-reading').matches(':modal') === wanted", arg=is_modal
-        )
-        expect(text).to_be_in_viewport()
-        assert_no_sideways_scrolling(page)
-        assert_accessible(page)
-    page.set_viewport_size({"width": 768, "height": 1024})
-    page.locator("#play-step").select_option("02")
-    expect(text).to_be_hidden()
-    _says(page, r"0 of \d+ tests pass", timeout=STARTED)  # or else the server ends while the page still loads
-
-
 def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
-    wrong = solved["01-camera-rays"].replace(_POINT, "return ray.orgin;")
+    wrong = solved["01-camera-rays"].replace(POINT, "return ray.orgin;")
     line = next(at for at, text in enumerate(wrong.splitlines(), start=1) if "orgin" in text)
     save(page, wrong)
     expect(page.locator("#play-stale")).to_be_hidden()
-    _says(page, r"It does not compile\.")
+    status_says(page, r"It does not compile\.")
     expect(page.locator("#play-stale")).to_be_visible()
     expect(page.locator("#play-problems")).to_contain_text("no member named 'orgin' in 'raysteps::Ray'")
     expect(page.locator(".cm-lintRange-error")).to_have_text("orgin")
@@ -200,13 +120,13 @@ def test_what_the_linker_misses_is_told_as_the_native_kit_tells_it(page: "Page",
     save(page, right.replace("glm::vec3 point_at(", "glm::vec3 point_on("))
     point = "point_at(Ray const&, float)"
     expect(problems).to_have_text(missing_message((point,)), timeout=STARTED)
-    _says(page, r"It does not compile\.")
+    status_says(page, r"It does not compile\.")
     save(page, right[: right.index("namespace")])
     expect(problems).to_contain_text(missing_message((point, ""))[-40:], timeout=STARTED)
     expect(problems).to_contain_text(" and ")
     helper = "float far(float);\n"
     declared = right.replace("namespace raysteps {", f"namespace raysteps {{ {helper}", 1)
-    save(page, declared.replace(_POINT, "return far(distance) * ray.direction;"))
+    save(page, declared.replace(POINT, "return far(distance) * ray.direction;"))
     expect(problems).to_have_text(undefined_message(("far(float)",)), timeout=STARTED)
 
 
@@ -214,15 +134,15 @@ def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[
     from playwright.sync_api import expect
 
     loop = "volatile bool on = true; while (on) {} "
-    save(page, solved["01-camera-rays"].replace(_POINT, loop + _POINT))
-    _says(page, r"Testing and drawing")
+    save(page, solved["01-camera-rays"].replace(POINT, loop + POINT))
+    status_says(page, r"Testing and drawing")
     page.get_by_role("button", name="Stop").click()
-    _says(page, r"Stopped\.")
+    status_says(page, r"Stopped\.")
     page.get_by_role("button", name="Run").click()
-    _says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
+    status_says(page, r"11 of 12 tests pass, 2 of 2 pictures are right\.")
     expect(page.locator("#play-tests .panel")).to_contain_text("Is there an endless loop?")
     save(page, solved["01-camera-rays"])
-    _says(page, r"Step 01 is right")
+    status_says(page, r"Step 01 is right")
 
 
 def test_headers_are_those_that_the_source_includes(page: "Page", solved: dict[str, str]) -> None:
@@ -232,9 +152,9 @@ def test_headers_are_those_that_the_source_includes(page: "Page", solved: dict[s
     right, own = solved["01-camera-rays"], "#include <glm/trigonometric.hpp>\n"
     assert own in right
     save(page, right.replace(own, f"{own}#include <array>\n") + "const std::array<int, 1> mine{};\n")
-    _says(page, r"Step 01 is right")
+    status_says(page, r"Step 01 is right")
     save(page, right.replace(own, ""))
-    _says(page, r"It does not compile")
+    status_says(page, r"It does not compile")
     expect(page.locator("#play-problems")).to_contain_text(
         "no member named 'radians' in namespace 'glm'", timeout=STARTED
     )
@@ -256,7 +176,7 @@ def test_what_is_included_is_compiled_before_it_is_saved(page: "Page", solved: d
     write(page, f"#include <array>\n{solved['01-camera-rays']}const std::array<int, 1> mine{{}};\n")
     expect(page.locator("#play-kept")).to_have_text("Kept in this browser.")
     page.keyboard.press("ControlOrMeta+s")
-    _says(page, r"Step 01 is right")
+    status_says(page, r"Step 01 is right")
     heard = page.evaluate("window.heard")
     assert "Compiling ..." in heard
     assert not [words for words in heard if "Compiling what you include" in words]
@@ -265,61 +185,21 @@ def test_what_is_included_is_compiled_before_it_is_saved(page: "Page", solved: d
 def test_what_throws_and_what_crashes_is_told(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
-    throws = "#include <stdexcept>\n" + solved["01-camera-rays"].replace(_POINT, 'throw std::runtime_error("oh no");')
+    throws = "#include <stdexcept>\n" + solved["01-camera-rays"].replace(POINT, 'throw std::runtime_error("oh no");')
     save(page, throws)
-    _says(page, r"Compiling what you include")
-    _says(page, r"11 of 12 tests pass")
+    status_says(page, r"Compiling what you include")
+    status_says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("threw: oh no")
     deep = "return distance > 1e9F ? ray.origin : point_at(ray, distance + 1.0F) + ray.origin;"
-    save(page, solved["01-camera-rays"].replace(_POINT, deep))
-    _says(page, r"11 of 12 tests pass")
+    save(page, solved["01-camera-rays"].replace(POINT, deep))
+    status_says(page, r"11 of 12 tests pass")
     expect(page.locator("#play-tests .panel")).to_contain_text("the program crashed (")
     expect(page.locator("#play-tests .panel")).to_contain_text("a recursion without an end).")
-    told = f'std::puts("at 42"); std::fputs("at 43", stderr); {_POINT}'
+    told = f'std::puts("at 42"); std::fputs("at 43", stderr); {POINT}'
     save(page, throws.replace('throw std::runtime_error("oh no");', told))
-    _says(page, r"Step 01 is right", timeout=STARTED)
+    status_says(page, r"Step 01 is right", timeout=STARTED)
     page.get_by_text("What the programs print").click()
     expect(page.locator("#play-console")).to_have_text(re.compile(r"at 42\s+at 43"))
-
-
-def _begin_again(page: "Page") -> None:
-    page.get_by_role("button", name="Begin again").click()
-    page.locator("dialog").get_by_role("button", name="Begin again").click()
-
-
-def test_the_stub_comes_back_and_what_was_written(page: "Page", project: Project, steps: list[Step]) -> None:
-    from playwright.sync_api import expect
-
-    back = page.get_by_role("button", name="Bring back what I wrote")
-    expect(back).to_be_hidden()
-    save(page, "int broken")
-    _says(page, r"It does not compile\.")
-    _begin_again(page)
-    _says(page, r"0 of 12 tests pass")
-    expect(page.locator("#play-tests summary").first).to_have_text(
-        "12 tests wait for a function that is not written yet"
-    )
-    stub = pristine_stub(project, steps[0]).split()
-    assert _source(page).split() == stub
-    _begin_again(page)  # where nothing was written, nothing is lost
-    page.reload()
-    _says(page, r"0 of 12 tests pass", timeout=STARTED)
-    assert _source(page).split() == stub
-    assert_accessible(page)
-    back.focus()
-    page.keyboard.press("Enter")
-    _says(page, r"It does not compile\.")
-    assert _source(page).split() == ["int", "broken"]
-    expect(back).to_be_hidden()
-    expect(page.locator(".cm-content")).to_be_focused()
-    _begin_again(page)
-    _says(page, r"0 of 12 tests pass")
-    save(page, "int other")
-    _says(page, r"It does not compile\.")
-    back.click()  # and what was written meanwhile takes its place
-    expect(page.locator(".cm-content")).to_have_text("int broken")
-    back.click()
-    expect(page.locator(".cm-content")).to_have_text("int other")
 
 
 def test_a_start_that_failed_is_tried_again(watched: Watched, server: PlayServer) -> None:
@@ -327,10 +207,10 @@ def test_a_start_that_failed_is_tried_again(watched: Watched, server: PlayServer
     page = watched.open("about:blank")
     page.route("**/clang.wasm.gz", lambda route: route.abort())
     page.goto(server.address)
-    _says(page, r"the compiler cannot be loaded: .* Press Run to try again")
+    status_says(page, r"the compiler cannot be loaded: .* Press Run to try again")
     page.unroute("**/clang.wasm.gz")
     page.get_by_role("button", name="Run").click()
-    _says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=STARTED)
+    status_says(page, r"0 of 12 tests pass, 0 of 2 pictures are right\.", timeout=STARTED)
 
 
 def test_any_web_space_will_do(watched: Watched, site: Path, tmp_path: Path, solved: dict[str, str]) -> None:
@@ -353,52 +233,13 @@ def test_any_web_space_will_do(watched: Watched, site: Path, tmp_path: Path, sol
         folder = f"{address}/of%20a%20course/play/"
         watched.allowed += [folder, f"blob:{address}"]
         page = watched.open(folder)
-        _says(page, r"0 of 12 tests pass", timeout=STARTED)
+        status_says(page, r"0 of 12 tests pass", timeout=STARTED)
         save(page, solved["01-camera-rays"])
-        _says(page, r"Step 01 is right")
+        status_says(page, r"Step 01 is right")
         server.shutdown()
     page.reload()  # without a network
-    _says(page, r"Step 01 is right", timeout=STARTED)
-    assert _POINT in _source(page)
-
-
-def test_every_step_keeps_its_text_when_steps_change_quickly(
-    page: "Page", project: Project, steps: list[Step], tmp_path: Path
-) -> None:
-    from playwright.sync_api import expect
-
-    texts = ["// mine", *(pristine_stub(project, step) for step in steps[1:3])]
-    write(page, texts[0])
-    page.evaluate("""() => {
-        addEventListener("hashchange", () => { location.hash = "#03"; }, { once: true });
-        location.hash = "#02";
-    }""")
-    page.wait_for_function("location.hash === '#03'")
-    for number in (3, 2, 1, 2, 3):
-        page.evaluate("number => { location.hash = `#0${number}`; }", number)
-        expect(page.locator("#play-file")).to_have_text(f"steps/{steps[number - 1].path.as_posix()}")
-        expect(page.locator("#play-step")).to_have_value(f"0{number}")
-        begins = 30  # words: the editor holds no more of a long text than is seen
-        assert _source(page).split()[:begins] == texts[number - 1].split()[:begins]
-    with page.expect_download() as download:
-        page.get_by_role("button", name="Save as zip").click()
-    download.value.save_as(tmp_path / "my-steps.zip")
-    assert load_submission(tmp_path / "my-steps.zip", steps).sources == {steps[0].id: texts[0].encode()}
-
-
-def test_what_is_typed_just_before_the_page_goes_is_kept(page: "Page") -> None:
-    from playwright.sync_api import expect
-
-    write(page, "// of the last moment\n")
-    page.reload()
-    expect(page.locator(".cm-content")).to_contain_text("// of the last moment")
-    write(page, "// later\n")
-    expect(page.locator("#play-kept")).to_have_text("Kept in this browser.")
-    page.reload()  # what was left before does not come again
-    expect(page.locator(".cm-content")).to_contain_text("// later")
-    _begin_again(page)
-    _says(page, r"0 of 12 tests pass", timeout=STARTED)
-    expect(page.locator("#play-kept")).to_be_empty()
+    status_says(page, r"Step 01 is right", timeout=STARTED)
+    assert POINT in source_of(page)
 
 
 def test_a_step_that_cannot_be_loaded_can_be_chosen_again(watched: Watched, page: "Page") -> None:
@@ -408,12 +249,12 @@ def test_a_step_that_cannot_be_loaded_can_be_chosen_again(watched: Watched, page
     write(page, "// of step 01\n")
     page.route("**/steps/02.html", lambda route: route.abort())
     page.locator("#play-step").select_option("02")
-    _says(page, r"Step 02 cannot be loaded\. Is there a network")
+    status_says(page, r"Step 02 cannot be loaded\. Is there a network")
     expect(page.locator("#play-step")).to_have_value("01")
     expect(page.locator(".cm-content")).to_contain_text("// of step 01")
     page.unroute("**/steps/02.html")
     page.locator("#play-step").select_option("02")
-    _says(page, r"Step 02: 0 of 16 tests pass", timeout=STARTED)
+    status_says(page, r"Step 02: 0 of 16 tests pass", timeout=STARTED)
     expect(page.locator("#play-file")).to_contain_text("02-intersection")
     expect(page.locator("#play-kept")).to_be_empty()
 
@@ -435,7 +276,7 @@ def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[st
 
     step = steps[number - 1]
     page.locator("#play-step").select_option(step.number)
-    _says(
+    status_says(
         page,
         rf"Step {step.number}: 0 of \d+ tests pass, 0 of {len(step.images)} pictures are right\.",
         timeout=STARTED,
@@ -446,7 +287,7 @@ def test_every_step_can_be_done(page: "Page", steps: list[Step], solved: dict[st
     panel = page.locator("#play-tests .panel").filter(has_text=test)
     expect(panel.locator("dd").first).to_contain_text(expected, timeout=STARTED)
     save(page, solved[step.id])
-    _says(page, rf"Step {step.number} is right", timeout=STARTED)
+    status_says(page, rf"Step {step.number} is right", timeout=STARTED)
     expect(panel).to_have_count(0)
 
 
@@ -457,9 +298,9 @@ def test_a_pixel_is_followed_to_its_end(
 
     step = steps[5]
     page.locator("#play-step").select_option(step.number)
-    _says(page, rf"Step {step.number}: 0 of \d+ tests pass", timeout=STARTED)
+    status_says(page, rf"Step {step.number}: 0 of \d+ tests pass", timeout=STARTED)
     save(page, solved[step.id])
-    _says(page, rf"Step {step.number} is right", timeout=STARTED)
+    status_says(page, rf"Step {step.number} is right", timeout=STARTED)
     picture = page.locator("#play-first .play-picture")
     stage = picture.locator(".compare-stage").bounding_box()
     assert stage is not None
@@ -510,207 +351,10 @@ def test_a_pixel_is_followed_to_its_end(
     assert comparison == whole, "below its title, not beside what stands at its right"
 
     save(page, "int broken")
-    _says(page, r"It does not compile\.", timeout=STARTED)
+    status_says(page, r"It does not compile\.", timeout=STARTED)
     expect(button).to_be_disabled()
 
 
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?"
 _SHOW = " Show the shadow ray on the stage"
 _TEXTS = "found => found.map(element => element.textContent)"
-
-
-def test_one_tab_writes_and_the_other_reads(page: "Page", server: PlayServer, solved: dict[str, str]) -> None:
-    from playwright.sync_api import expect
-
-    first, second = page, page.context.new_page()
-    second.goto(server.address)
-    expect(first.locator("#play-elsewhere")).to_be_hidden()
-    expect(second.locator("#play-elsewhere")).to_be_visible()
-    stub = _source(second)
-    write(second, "// lost\n")
-    assert _source(second) == stub
-    second.get_by_role("button", name="Write here instead").click()
-    expect(first.locator("#play-elsewhere")).to_be_visible()
-    expect(second.locator("#play-elsewhere")).to_be_hidden()
-    write(first, "// lost\n")
-    save(second, solved["01-camera-rays"])
-    _says(second, r"Step 01 is right", timeout=STARTED)
-    second.close()
-    expect(first.locator("#play-elsewhere")).to_be_hidden()
-    assert _POINT in _source(first), "what the other tab wrote"
-    save(first, f"{solved['01-camera-rays']}// mine\n")
-    _says(first, r"Step 01 is right")
-
-
-def test_a_saved_zip_is_opened_and_the_next_step_comes(
-    page: "Page", steps: list[Step], solved: dict[str, str], tmp_path: Path
-) -> None:
-    from playwright.sync_api import expect
-
-    first, second = steps[:2]
-    saved = tmp_path / "saved.zip"
-    with zipfile.ZipFile(saved, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr(f"mine/steps/{first.path.as_posix()}", solved[first.id])
-        archive.writestr(second.file, "// of step 02, by its name alone\n")
-        archive.writestr("notes.txt", "no step")
-    write(page, "// what was there\n")
-    expect(page.locator("#play-next")).to_be_hidden()
-    page.locator("#play-zip").set_input_files(saved)
-    _says(page, r"Step 01 is right")
-    expect(page.locator("#play-kept")).to_have_text("saved.zip: taken from it: step 01, 02.")
-    page.get_by_role("button", name="Next step").click()
-    expect(page.locator("#play-step")).to_have_value("02")
-    _says(page, r"It does not compile\.", timeout=STARTED)
-    assert _source(page).startswith("// of step 02")
-    page.locator("#play-step").select_option("01")
-    _says(page, r"Step 01 is right", timeout=STARTED)
-    page.get_by_role("button", name="Bring back what I wrote").click()
-    _says(page, r"It does not compile\.")
-    expect(page.locator("#play-next")).to_be_hidden()
-    assert _source(page).startswith("// what was there")
-    (tmp_path / "no.zip").write_text("no zip")
-    page.locator("#play-zip").set_input_files(tmp_path / "no.zip")
-    _says(page, r"no\.zip cannot be read\. Expected a zip that this page saved, or one that you hand in\.")
-
-
-# The browser's own folder in place of one that a reader would choose; and what another program does there.
-_PICKER = """window.showDirectoryPicker = async () =>
-    (await navigator.storage.getDirectory()).getDirectoryHandle("course", { create: true });"""
-_FILE = """async ([path, text]) => {
-    const names = path.split("/");
-    let folder = await window.showDirectoryPicker();
-    for (const name of names.slice(0, -1)) folder = await folder.getDirectoryHandle(name, { create: true });
-    const file = await folder.getFileHandle(names.at(-1), { create: true });
-    if (text === null) return (await file.getFile()).text();
-    const stream = await file.createWritable();
-    await stream.write(text);
-    return stream.close();
-}"""
-
-
-def test_a_folder_on_disk_and_the_page_follow_each_other(
-    watched: Watched, server: PlayServer, steps: list[Step], solved: dict[str, str]
-) -> None:
-    from playwright.sync_api import expect
-
-    first, second = (f"steps/{step.path.as_posix()}" for step in steps[:2])
-    right = solved[steps[0].id]
-    watched.allowed += [server.address, f"blob:{server.address.rstrip('/')}"]
-    page = watched.open(server.address, before=_PICKER)
-    kept, both, back = (page.locator(f"#play-{name}") for name in ("kept", "both", "back"))
-    _says(page, r"0 of 12 tests pass", timeout=STARTED)
-
-    def on_disk(path: str, text: str | None = None) -> str:
-        return str(page.evaluate(_FILE, [path, text]))
-
-    on_disk(second, "// of the native kit\r\n")
-    save(page, right)
-    _says(page, r"Step 01 is right")
-    page.get_by_role("button", name="Link a folder").click()
-    expect(kept).to_have_text("Saved in course.")
-    assert on_disk(first) == right, "what is in the page only"
-    _says(page, r"Step 01 is right")
-
-    on_disk(first, right.replace("\n", "\r\n") + "// native\r\n")
-    page.evaluate("dispatchEvent(new Event('focus'))")
-    expect(kept).to_have_text("Taken from course, where it was changed.")
-    _says(page, r"Step 01 is right")
-    on_disk(first, "// theirs\n")
-    save(page, f"{right}// mine\n")
-    expect(both).to_be_visible()
-    assert on_disk(first) == "// theirs\n", "as long as nobody has said which one"
-    assert_accessible(page)
-    page.get_by_role("button", name="Keep what is here").click()
-    expect(kept).to_have_text("Saved in course.")
-    assert on_disk(first) == f"{right}// mine\n"
-    expect(back).to_be_visible()  # theirs
-    on_disk(first, "// theirs again\n")
-    write(page, "// mine again\n")
-    page.evaluate("dispatchEvent(new Event('focus'))")
-    page.get_by_role("button", name="Take the file").click()
-    _says(page, r"It does not compile\.")
-    assert _source(page).split() == ["//", "theirs", "again"]
-    back.click()
-    expect(kept).to_have_text("Saved in course.")
-    assert on_disk(first) == "// mine again\n"
-
-    page.reload()
-    unlink = page.get_by_role("button", name="Unlink course")
-    expect(unlink).to_be_visible()
-    page.locator("#play-step").select_option("02")
-    expect(page.locator(".cm-content")).to_have_text("// of the native kit")
-    unlink.click()
-    expect(page.get_by_role("button", name="Link a folder")).to_be_visible()
-
-
-def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
-    """The rooms stand below each other there, and what one needs in all of them stays in sight."""
-    from playwright.sync_api import expect
-
-    watched.allowed.append(server.address)
-    no_folders = "delete window.showDirectoryPicker;"
-    page = watched.open(server.address, width=390, scheme="dark", touch=True, before=no_folders)
-    _says(page, r"0 of 12 tests pass", timeout=STARTED)
-    assert not page.locator("#play-folder").is_visible()
-    assert_no_sideways_scrolling(page)
-    assert_accessible(page)
-    assert_large_enough(page)
-
-    def top(room: str) -> float:
-        return float(page.locator(room).evaluate("room => room.getBoundingClientRect().top"))
-
-    for title, room in [("Source", "#play-source"), ("Results", "#play-results"), ("Handout", "#play-handout")]:
-        page.get_by_role("button", name=title, exact=True).tap()
-        page.wait_for_function("room => document.querySelector(room).getBoundingClientRect().top < 200", arg=room)
-        assert top(room) >= page.locator(".page-head").evaluate("head => head.getBoundingClientRect().bottom")
-        expect(page.get_by_role("button", name="Run")).to_be_in_viewport(ratio=1)
-        expect(page.locator("#play-status")).to_be_in_viewport()
-    page.get_by_role("button", name="Hint").tap()
-    expect(page.locator("#play-hints p")).to_be_in_viewport()
-    expect(page.locator("#play-hints code").first).to_have_text("from")
-    page.locator("#play-step").select_option("02")
-    _says(page, r"0 of 16 tests pass", timeout=STARTED)
-    expect(page.locator("#play-handout h1")).to_be_in_viewport()
-
-
-@pytest.mark.parametrize(("width", "height"), [(320, 568), (640, 360)])
-def test_what_the_compiler_says_is_in_sight_on_a_small_screen(
-    watched: Watched, server: PlayServer, solved: dict[str, str], width: int, height: int
-) -> None:
-    """640 x 360 is half of a usual screen at 200 %. The caret stays between what lies over the page at its edges."""
-    from playwright.sync_api import expect
-
-    watched.allowed.append(server.address)
-    page = watched.open(server.address, width=width, height=height)
-    _says(page, r"0 of 12 tests pass", timeout=STARTED)
-    save(page, "int unused;\n" * 30 + solved["01-camera-rays"].replace(_POINT, "return ray.orgin;"))
-    _says(page, r"It does not compile\.")
-    expect(page.get_by_role("button", name="Run")).to_be_in_viewport(ratio=1)
-    assert_no_sideways_scrolling(page)
-    head, problems, line = page.locator(".page-head"), page.locator("#play-problems"), page.locator(".cm-activeLine")
-    for key in ("ControlOrMeta+Home", "ControlOrMeta+End"):
-        page.keyboard.press(key)
-        expect(problems.get_by_role("button").first).to_be_in_viewport(ratio=1)
-        page.wait_for_function(
-            """([line, above, below]) => {
-                const { top, bottom } = line.getBoundingClientRect();
-                const { top: most } = below.getBoundingClientRect();
-                return above.getBoundingClientRect().bottom <= top && bottom <= most;
-            }""",
-            arg=[one.element_handle() for one in (line, head, problems)],
-        )
-
-
-def test_rooms_scroll_and_the_page_does_not(page: "Page") -> None:
-    """On a wide screen; and what is said of a pixel stands together, however high the stage beside it is."""
-    from playwright.sync_api import expect
-
-    page.mouse.move(700, 20)  # above the rooms
-    page.mouse.wheel(0, 3000)
-    assert page.evaluate("document.documentElement.scrollHeight - innerHeight") <= 0
-    assert broken_words(page, "#play-handout table") == []
-    page.get_by_role("button", name="Look inside pixel").first.click()
-    lines = page.locator("#play-inside .trees > *")
-    expect(lines.last).to_contain_text("shows the direction of its eye ray", timeout=STARTED)
-    boxes = lines.evaluate_all("all => all.map(one => one.getBoundingClientRect()).map(box => [box.top, box.bottom])")
-    assert max(below[0] - above[1] for above, below in pairwise(boxes)) < 40

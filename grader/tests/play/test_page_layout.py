@@ -1,0 +1,129 @@
+"""The rooms of the page to work in, on wide screens and on a phone."""
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import pytest
+from browser import Watched, assert_accessible, assert_large_enough, assert_no_sideways_scrolling, broken_words
+from play_pages import POINT, STARTED, save, status_says, write
+
+from raysteps.play.play_page import PlayServer
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
+
+
+def _stand_side_by_side(page: "Page", *rooms: str) -> bool:
+    """Each ends where the next begins, or before."""
+    boxes = [page.locator(room).bounding_box() for room in rooms]
+    return all(one and other and one["x"] + one["width"] <= other["x"] for one, other in pairwise(boxes))
+
+
+def test_a_text_to_read_stands_beside_what_is_written(page: "Page") -> None:
+    """Where there is room; on a phone it lies over the page."""
+    from playwright.sync_api import expect
+
+    text, handout = page.locator("#play-reading"), page.locator("#play-handout")
+    link = handout.get_by_role("link", name="camera_rays.hpp")
+    link.click()
+    expect(page.locator("#play-reading-text")).to_be_focused()
+    assert_accessible(page)
+    expect(handout).to_be_hidden()
+    assert _stand_side_by_side(page, "#play-reading", "#play-source")
+    write(page, "// while it can be read\n")
+    expect(page.locator(".cm-content")).to_have_text("// while it can be read")
+    expect(text).to_be_visible()
+    page.locator("#play-reading-text").press("Escape")
+    expect(text).to_be_hidden()
+    expect(handout).to_be_visible()
+    expect(link).to_be_focused()
+    page.set_viewport_size({"width": 1920, "height": 1080})
+    link.click()
+    assert _stand_side_by_side(page, "#play-handout", "#play-reading", "#play-source")
+    for width, height, is_modal in ((768, 1024, False), (390, 844, True)):
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_function(
+            "wanted => document.querySelector('#play-reading').matches(':modal') === wanted", arg=is_modal
+        )
+        expect(text).to_be_in_viewport()
+        assert_no_sideways_scrolling(page)
+        assert_accessible(page)
+    page.set_viewport_size({"width": 768, "height": 1024})
+    page.locator("#play-step").select_option("02")
+    expect(text).to_be_hidden()
+    status_says(page, r"0 of \d+ tests pass", timeout=STARTED)  # or else the server ends while the page still loads
+
+
+def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
+    """The rooms stand below each other there, and what one needs in all of them stays in sight."""
+    from playwright.sync_api import expect
+
+    watched.allowed.append(server.address)
+    no_folders = "delete window.showDirectoryPicker;"
+    page = watched.open(server.address, width=390, scheme="dark", touch=True, before=no_folders)
+    status_says(page, r"0 of 12 tests pass", timeout=STARTED)
+    assert not page.locator("#play-folder").is_visible()
+    assert_no_sideways_scrolling(page)
+    assert_accessible(page)
+    assert_large_enough(page)
+
+    def top(room: str) -> float:
+        return float(page.locator(room).evaluate("room => room.getBoundingClientRect().top"))
+
+    for title, room in [("Source", "#play-source"), ("Results", "#play-results"), ("Handout", "#play-handout")]:
+        page.get_by_role("button", name=title, exact=True).tap()
+        page.wait_for_function("room => document.querySelector(room).getBoundingClientRect().top < 200", arg=room)
+        assert top(room) >= page.locator(".page-head").evaluate("head => head.getBoundingClientRect().bottom")
+        expect(page.get_by_role("button", name="Run")).to_be_in_viewport(ratio=1)
+        expect(page.locator("#play-status")).to_be_in_viewport()
+    page.get_by_role("button", name="Hint").tap()
+    expect(page.locator("#play-hints p")).to_be_in_viewport()
+    expect(page.locator("#play-hints code").first).to_have_text("from")
+    page.locator("#play-step").select_option("02")
+    status_says(page, r"0 of 16 tests pass", timeout=STARTED)
+    expect(page.locator("#play-handout h1")).to_be_in_viewport()
+
+
+@pytest.mark.parametrize(("width", "height"), [(320, 568), (640, 360)])
+def test_what_the_compiler_says_is_in_sight_on_a_small_screen(
+    watched: Watched, server: PlayServer, solved: dict[str, str], width: int, height: int
+) -> None:
+    """640 x 360 is half of a usual screen at 200 %. The caret stays between what lies over the page at its edges."""
+    from playwright.sync_api import expect
+
+    watched.allowed.append(server.address)
+    page = watched.open(server.address, width=width, height=height)
+    status_says(page, r"0 of 12 tests pass", timeout=STARTED)
+    save(page, "int unused;\n" * 30 + solved["01-camera-rays"].replace(POINT, "return ray.orgin;"))
+    status_says(page, r"It does not compile\.")
+    expect(page.get_by_role("button", name="Run")).to_be_in_viewport(ratio=1)
+    assert_no_sideways_scrolling(page)
+    head, problems, line = page.locator(".page-head"), page.locator("#play-problems"), page.locator(".cm-activeLine")
+    for key in ("ControlOrMeta+Home", "ControlOrMeta+End"):
+        page.keyboard.press(key)
+        expect(problems.get_by_role("button").first).to_be_in_viewport(ratio=1)
+        page.wait_for_function(
+            """([line, above, below]) => {
+                const { top, bottom } = line.getBoundingClientRect();
+                const { top: most } = below.getBoundingClientRect();
+                return above.getBoundingClientRect().bottom <= top && bottom <= most;
+            }""",
+            arg=[one.element_handle() for one in (line, head, problems)],
+        )
+
+
+def test_rooms_scroll_and_the_page_does_not(page: "Page") -> None:
+    """On a wide screen; and what is said of a pixel stands together, however high the stage beside it is."""
+    from playwright.sync_api import expect
+
+    page.mouse.move(700, 20)  # above the rooms
+    page.mouse.wheel(0, 3000)
+    assert page.evaluate("document.documentElement.scrollHeight - innerHeight") <= 0
+    assert broken_words(page, "#play-handout table") == []
+    page.get_by_role("button", name="Look inside pixel").first.click()
+    lines = page.locator("#play-inside .trees > *")
+    expect(lines.last).to_contain_text("shows the direction of its eye ray", timeout=STARTED)
+    boxes = lines.evaluate_all("all => all.map(one => one.getBoundingClientRect()).map(box => [box.top, box.bottom])")
+    assert max(below[0] - above[1] for above, below in pairwise(boxes)) < 40
