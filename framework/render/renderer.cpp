@@ -110,14 +110,11 @@ void announce(const Rect& tile, Job& job) {
 /// so what is counted does not hang on who takes it.
 template <typename Work>
 void for_each_part(const std::vector<Rect>& parts, Job& job, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    run_on_threads(job.options.threads, [&] {
+    share_among_threads(job.options.threads, parts.size(), 1, [&](std::size_t i) {
         thread_stats() = Stats{};
-        for (std::size_t i = next++; i < parts.size(); i = next++) {
-            TileRays rays(job.accelerator, job.scene);
-            const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
-            work(parts[i], *integrator);
-        }
+        TileRays rays(job.accelerator, job.scene);
+        const std::unique_ptr<Integrator> integrator = make_integrator(job.scene, rays, job.options.step);
+        work(parts[i], *integrator);
         const std::scoped_lock lock(job.mutex);
         job.stats += thread_stats();
     });

@@ -1,6 +1,5 @@
 #include "render/spd.hpp"
 
-#include <atomic>
 #include <glm/geometric.hpp>
 #include <mutex>
 
@@ -17,7 +16,7 @@ namespace {
 constexpr int k_corners = 513;
 constexpr int k_max_depth = 5;
 
-/// Each thread has its own.
+/// Each row of rays has its own.
 class SpdCounter {
 public:
     SpdCounter(const Scene& scene, const Accelerator& accelerator)
@@ -78,16 +77,13 @@ Ray corner_ray(const Camera& camera, const ViewFrame& frame, int column, int row
 
 Stats count_spd_rays(const Scene& scene, const Accelerator& accelerator, int threads) {
     const ViewFrame frame = view_frame(scene.camera);
-    std::atomic<int> next_row{0};
     std::mutex mutex;
     Stats total;
-    run_on_threads(threads, [&] {
+    share_among_threads(threads, k_corners, 1, [&](std::size_t row) {
         thread_stats() = Stats{};
         SpdCounter counter(scene, accelerator);
-        for (int row = next_row++; row < k_corners; row = next_row++) {
-            for (int column = 0; column < k_corners; ++column) {
-                counter.eye_ray(corner_ray(scene.camera, frame, column, row));
-            }
+        for (int column = 0; column < k_corners; ++column) {
+            counter.eye_ray(corner_ray(scene.camera, frame, column, static_cast<int>(row)));
         }
         const std::scoped_lock lock(mutex);
         total += thread_stats();

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <vector>
+
 #include "core/random_stream.hpp"
 #include "core/threads.hpp"
 #include "steps/10-sampling/sampling.hpp"
