@@ -215,12 +215,15 @@ def fuzz_checks(project: Project, inputs: Inputs) -> list[Check]:
 
 
 def use_caches() -> None:
-    """From here on, in this process and in those that it starts; ccache in the user's own cache. Nothing is different
-    but the time. Another launcher that somebody chose stays."""
+    """From here on, in this process and in those that it starts, also where these have another home; ccache in the
+    user's own cache. Nothing is different but the time. Another launcher that somebody chose stays."""
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    if shutil.which("ccache"):
+    if ccache := shutil.which("ccache"):
         os.environ.setdefault("CMAKE_CXX_COMPILER_LAUNCHER", "ccache")
         os.environ["CCACHE_NOHASHDIR"] = "1"
+        asked = subprocess.run([ccache, "--get-config", "cache_dir"], capture_output=True, check=False, text=True)
+        if folder := asked.stdout.strip():
+            os.environ.setdefault("CCACHE_DIR", folder)
 
 
 # Programs for Windows: compiled here by MinGW-w64, run by Wine.

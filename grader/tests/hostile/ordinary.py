@@ -42,7 +42,8 @@ def same_tests_as_ordinary_user(kit: BuiltKit, tests: Path) -> Iterator["subproc
         command: list[str | Path] = ["unshare", "--mount", "--propagation", "private", sys.executable, as_user.__file__]
         command += [str(user), sys.base_prefix, sys.prefix, root, "--", sys.executable, "-m", "pytest", "-q", tests]
         command += ["-p", "no:cacheprovider", f"--basetemp={name}/pytest"]
-        own = {KIT_VARIABLE: str(copy), "HOME": name, "TMPDIR": name, "PYTHONDONTWRITEBYTECODE": "1"}
+        own = {KIT_VARIABLE: str(copy), "HOME": name, "TMPDIR": name, "CCACHE_DIR": f"{name}/ccache"}
+        own |= {"PYTHONDONTWRITEBYTECODE": "1"}
         process = subprocess.Popen(
             command,
             cwd=root / "grader",
