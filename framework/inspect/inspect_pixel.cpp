@@ -50,14 +50,18 @@ private:
 template <typename Visit>
 void for_each_ray(const RayNode& node, const Visit& visit) {
     visit(node);
-    for (const LightRecord& light : node.lights) {
-        for (const RayNode& ray : light.rays) {
+    const auto visit_all = [&visit](const std::list<RayNode>& rays) {
+        for (const RayNode& ray : rays) {
             for_each_ray(ray, visit);
         }
+    };
+    for (const LightRecord& light : node.lights) {
+        visit_all(light.rays);
     }
-    for (const RayNode& bounce : node.bounces) {
-        for_each_ray(bounce, visit);
+    for (const LampRecord& lamp : node.lamps) {
+        visit_all(lamp.rays);
     }
+    visit_all(node.bounces);
 }
 
 void list_near(const Scene& scene, PixelRecord& record) {
@@ -93,6 +97,7 @@ PixelRecord inspect_pixel(const Scene& scene, const Camera& camera, const Accele
     record.frame = view_frame(camera);
     record.background = scene.background;
     record.lights = scene.lights;
+    record.area_lights = has_area_lights(options.step) ? scene.area_lights.size() : 0;
     record.structure = accelerator.size();
     record.surfaces = scene.surfaces().size();
     record.x = x;

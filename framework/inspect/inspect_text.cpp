@@ -16,8 +16,9 @@ std::string heading(const PixelRecord& record) {
 }
 
 std::string scene_words(const PixelRecord& record) {
-    std::string text = amount(record.surfaces, "surface") + ", " + amount(record.lights.size(), "light") +
-                       ", search: " + name_of(record.acceleration);
+    std::string text = amount(record.surfaces, "surface") + ", " + amount(record.lights.size(), "light");
+    text += record.area_lights == 0 ? "" : ", " + amount(record.area_lights, "lamp");
+    text += ", search: " + name_of(record.acceleration);
     if (record.structure.boxes > 0) {
         text += " (" + amount(record.structure.boxes, "box") + ", " + std::to_string(record.structure.references) +
                 " surfaces in their lists)";

@@ -46,4 +46,11 @@ std::string name_of(LossReason reason) {
 
 std::string name_of(Acceleration acceleration) { return std::string(accelerator_entry(acceleration).name); }
 
+std::string name_of(const LightShape& shape) {
+    if (std::holds_alternative<TriangleLight>(shape)) {
+        return "triangle";
+    }
+    return std::holds_alternative<SphereLight>(shape) ? "sphere" : "disk";
+}
+
 }  // namespace raysteps

@@ -9,5 +9,6 @@ namespace raysteps {
 [[nodiscard]] std::string name_of(RayRole role);
 [[nodiscard]] std::string name_of(LossReason reason);
 [[nodiscard]] std::string name_of(Acceleration acceleration);
+[[nodiscard]] std::string name_of(const LightShape& shape);
 
 }  // namespace raysteps

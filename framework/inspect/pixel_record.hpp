@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "core/area_light.hpp"
 #include "core/box.hpp"
 #include "core/camera.hpp"
 #include "core/image.hpp"
 #include "core/light.hpp"
+#include "core/light_sample.hpp"
 #include "core/stats.hpp"
 #include "inspect/hit_trace.hpp"
 #include "render/integrator.hpp"
@@ -47,6 +49,7 @@ struct SearchCounts {
 };
 
 struct LightRecord;
+struct LampRecord;
 
 /// What happened at a hit of a path, from step 13 on.
 struct PathStep {
@@ -67,6 +70,8 @@ struct RayNode {
     std::optional<HitTrace> hit;  ///< of any hit: the surface that ended the search
     std::optional<LostHit> lost;  ///< where a search through all surfaces finds something else
     std::vector<LightRecord> lights;
+    std::vector<LampRecord> lamps;     ///< in the order in which they were sampled
+    std::uint64_t lamps_beyond = 0;    ///< further samples, which were not kept
     std::optional<Color> direct;       ///< step 03's sum over the lights that reach the hit
     std::optional<Color> transmitted;  ///< what shines through, weighed with the transmittance
     std::optional<PathStep> path;      ///< nothing where no path has a hit
@@ -76,11 +81,15 @@ struct RayNode {
     bool followed_within = false;  ///< by step 05 itself and not through trace, so that nobody saw what it brought
 };
 
-/// One light, seen from a hit.
-struct LightRecord {
-    std::size_t light = 0;
+/// What step 04 answered of a place that shines, at a hit.
+struct ShadowRecord {
     bool lit = true;
-    std::list<RayNode> rays;        ///< shadow rays; none before step 04
+    std::list<RayNode> rays;  ///< shadow rays; none before step 04
+};
+
+/// One light, seen from a hit.
+struct LightRecord : ShadowRecord {
+    std::size_t light = 0;
     std::optional<Ray> shadow_ray;  ///< step 04's own answer, which is_lit need not have used
     glm::vec3 to_light{0.0F};
     glm::vec3 mirrored{0.0F};  ///< the light's direction of travel, mirrored
@@ -88,6 +97,18 @@ struct LightRecord {
     float r_v = 0.0F;
     Color diffuse = k_black;
     Color specular = k_black;
+};
+
+/// One sample of an area light, seen from a hit. Step 04 is not asked of one that is black unshadowed.
+struct LampRecord : ShadowRecord {
+    std::size_t lamp = 0;  ///< of the scene's area lights
+    AreaLight light;
+    LightSample sample;
+    Color unshadowed = k_black;        ///< what it brings to the hit where nothing stands between
+    std::optional<float> scatter_pdf;  ///< as step 15 was told it; nothing where it was not
+    std::optional<float> weight;       ///< step 15's power heuristic of both densities
+
+    [[nodiscard]] Color brought() const { return lit ? weight.value_or(1.0F) * unshadowed : k_black; }
 };
 
 /// What was counted but not kept.
@@ -107,6 +128,7 @@ struct PixelRecord {
     ViewFrame frame;
     Color background = k_black;
     std::vector<Light> lights;
+    std::size_t area_lights = 0;  ///< that are sampled
     AcceleratorStats structure;
     std::uint64_t surfaces = 0;  ///< in the scene
     int x = 0;

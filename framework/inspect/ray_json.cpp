@@ -103,6 +103,32 @@ void write_light(JsonWriter& json, const LightRecord& light) {
     json.end_object();
 }
 
+void write_lamp(JsonWriter& json, const LampRecord& lamp) {
+    const LightSample& sample = lamp.sample;
+    json.line_break().begin_object().key("lamp").whole(lamp.lamp).key("shape").text(name_of(lamp.light.shape));
+    json.key("radiance").vector(lamp.light.radiance).key("lit").flag(lamp.lit);
+    json.key("position").vector(sample.position).key("normal").vector(sample.normal).key("pdf").number(sample.pdf);
+    json.key("unshadowed").vector(lamp.unshadowed).key("scatter_pdf");
+    write_number(json, lamp.scatter_pdf);
+    json.key("weight");
+    write_number(json, lamp.weight);
+    json.key("brought").vector(lamp.brought()).key("rays");
+    write_rays(json, lamp.rays);
+    json.end_object();
+}
+
+/// Nothing where no lamp was sampled.
+void write_lamps(JsonWriter& json, const RayNode& node) {
+    if (node.lamps.empty()) {
+        return;
+    }
+    json.key("lamps").begin_array();
+    for (const LampRecord& lamp : node.lamps) {
+        write_lamp(json, lamp);
+    }
+    json.end_array().key("lamps_beyond").whole(node.lamps_beyond).line_break();
+}
+
 void write_search(JsonWriter& json, const RayNode& node) {
     json.key("counts");
     write_counts(json, node.counts);
@@ -150,7 +176,9 @@ void write_ray(JsonWriter& json, const RayNode& node) {
     for (const LightRecord& light : node.lights) {
         write_light(json, light);
     }
-    json.end_array().line_break().key("direct");
+    json.end_array().line_break();
+    write_lamps(json, node);
+    json.key("direct");
     write_color(json, node.direct);
     json.key("transmitted");
     write_color(json, node.transmitted);

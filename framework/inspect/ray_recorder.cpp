@@ -4,11 +4,13 @@
 
 #include "inspect/lost_hit.hpp"
 #include "inspect/shading_trace.hpp"
+#include "steps/15-mis/mis.hpp"
 
 namespace raysteps {
 namespace {
 
 constexpr std::uint64_t k_max_checks = 30'000'000;  // surfaces asked a second time, in a pixel
+constexpr std::size_t k_max_lamps = 64;             // samples that are kept of a hit
 
 }  // namespace
 
@@ -37,29 +39,62 @@ bool RayRecorder::occluded(const RayOrigin& origin, const Ray& ray, float distan
 }
 
 const SceneQuery& RayRecorder::shadow_query(RayNumber ray, std::size_t light) {
-    asks_point_light_ = light < scene_.lights.size();
-    if (!asks_point_light_) {
-        return RayCounter::shadow_query(ray, light);
-    }
-    if (RayNode* const node = tree_.node(ray)) {
-        node->lights.emplace_back().light = light;
-    }
-    shadow_query_.begin(ray, RayCounter::shadow_query(ray, light));
+    shadow_query_.begin(ray, light_at(ray, light), RayCounter::shadow_query(ray, light));
     return shadow_query_;
 }
 
-void RayRecorder::light_answered(RayNumber ray, bool lit) {
-    if (RayNode* const node = asks_point_light_ ? tree_.node(ray) : nullptr) {
-        node->lights.back().lit = lit;
+ShadowRecord* RayRecorder::light_at(RayNumber ray, std::size_t light) {
+    if (light >= scene_.lights.size()) {
+        return lamp_;
+    }
+    RayNode* const node = tree_.node(ray);
+    if (node == nullptr) {
+        return nullptr;
+    }
+    LightRecord& made = node->lights.emplace_back();
+    made.light = light;
+    return &made;
+}
+
+void RayRecorder::light_answered(RayNumber /*ray*/, bool lit) {
+    if (ShadowRecord* const light = shadow_query_.light()) {
+        light->lit = lit;
+    }
+}
+
+void RayRecorder::area_light_sampled(RayNumber ray, std::size_t light, const LightSample& sample,
+                                     const Color& unshadowed) {
+    RayNode* const node = tree_.node(ray);
+    lamp_ = nullptr;
+    if (node == nullptr) {
+        return;
+    }
+    if (node->lamps.size() >= k_max_lamps) {
+        ++node->lamps_beyond;
+        return;
+    }
+    lamp_ = &node->lamps.emplace_back();
+    lamp_->lit = false;  // unless step 04 says so
+    lamp_->lamp = light;
+    lamp_->light = scene_.area_lights[light];
+    lamp_->sample = sample;
+    lamp_->unshadowed = unshadowed;
+}
+
+void RayRecorder::area_light_handed_on(RayNumber /*ray*/, const DirectSample& sample) {
+    if (lamp_ != nullptr) {
+        const Unheard unheard;
+        lamp_->scatter_pdf = sample.scatter_pdf;
+        lamp_->weight = power_heuristic(sample.pdf, sample.scatter_pdf);
     }
 }
 
 std::optional<HitRecord> RayRecorder::ShadowQuery::closest_hit(const Ray& ray) const {
-    return recorder_.search(recorder_.tree_.open_shadow_ray(of_, ray), *scene_, ray);
+    return recorder_.search(recorder_.tree_.open_shadow_ray(of_, light_, ray), *scene_, ray);
 }
 
 bool RayRecorder::ShadowQuery::occluded(const Ray& ray, float distance) const {
-    return recorder_.search_any(recorder_.tree_.open_shadow_ray(of_, ray), *scene_, ray, distance);
+    return recorder_.search_any(recorder_.tree_.open_shadow_ray(of_, light_, ray), *scene_, ray, distance);
 }
 
 std::optional<HitRecord> RayRecorder::search(RayNode* node, const SceneQuery& scene, const Ray& ray) {

@@ -15,6 +15,9 @@ public:
     [[nodiscard]] bool occluded(const RayOrigin& origin, const Ray& ray, float distance) override;
     [[nodiscard]] const SceneQuery& shadow_query(RayNumber ray, std::size_t light) override;
     void light_answered(RayNumber ray, bool lit) override;
+    void area_light_sampled(RayNumber ray, std::size_t light, const LightSample& sample,
+                            const Color& unshadowed) override;
+    void area_light_handed_on(RayNumber ray, const DirectSample& sample) override;
     [[nodiscard]] RayNumber ray_of_hit(const HitRecord& hit, RayNumber first, RayNumber last) const override {
         return tree_.ray_of_hit(hit, first, last);
     }
@@ -33,10 +36,13 @@ private:
     public:
         explicit ShadowQuery(RayRecorder& recorder) : recorder_(recorder) {}
 
-        void begin(RayNumber of, const SceneQuery& scene) {
+        /// The light is null where nothing of it is kept.
+        void begin(RayNumber of, ShadowRecord* light, const SceneQuery& scene) {
             of_ = of;
+            light_ = light;
             scene_ = &scene;
         }
+        [[nodiscard]] ShadowRecord* light() const { return light_; }
 
         [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
         [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
@@ -44,11 +50,13 @@ private:
     private:
         RayRecorder& recorder_;
         RayNumber of_ = k_no_ray;
+        ShadowRecord* light_ = nullptr;
         const SceneQuery* scene_ = nullptr;
     };
 
     [[nodiscard]] std::optional<HitRecord> search(RayNode* node, const SceneQuery& scene, const Ray& ray);
     [[nodiscard]] bool search_any(RayNode* node, const SceneQuery& scene, const Ray& ray, float distance);
+    [[nodiscard]] ShadowRecord* light_at(RayNumber ray, std::size_t light);
     void describe_hit_of(RayNode& node, const HitRecord& hit, const Surface* surface) const;
     void check(RayNode& node, float limit);
     [[nodiscard]] PathStep* path_step(RayNumber ray);
@@ -60,7 +68,7 @@ private:
     RayTree tree_;
     ShadowQuery shadow_query_;
     std::uint64_t checks_left_;
-    bool asks_point_light_ = true;
+    LampRecord* lamp_ = nullptr;  // that was sampled last; null: it is not kept
 };
 
 }  // namespace raysteps

@@ -1,6 +1,10 @@
 #include "inspect/ray_text.hpp"
 
+#include <algorithm>
+#include <glm/geometric.hpp>
+
 #include "inspect/search_text.hpp"
+#include "steps/13-path-tracing/path_tracing.hpp"
 
 namespace raysteps {
 namespace {
@@ -66,7 +70,7 @@ void write_hit(TextLines& out, const HitTrace& trace, int level) {
     out.line(level + 1, "v " + brief(-hit.ray_direction) + ", ray_direction turned round");
 }
 
-std::string verdict(const LightRecord& light) {
+std::string verdict(const ShadowRecord& light) {
     if (light.rays.empty()) {
         return light.lit ? "counts" : "does not count";
     }
@@ -78,20 +82,69 @@ std::string verdict(const LightRecord& light) {
                    : "blocked";
 }
 
+/// Nothing but where it goes of a ray to a light; to a point of a lamp also how far.
+void write_shadow_rays(TextLines& out, const PixelRecord& record, const std::list<RayNode>& rays, bool tells_limit,
+                       int level) {
+    for (const RayNode& ray : rays) {
+        const std::string limit = tells_limit && ray.limit ? ", as far as " + brief(*ray.limit) : "";
+        out.line(level, "shadow ray from " + brief(ray.ray.origin) + " towards " + brief(ray.ray.direction) + limit);
+        out.line(level, search_words(ray.counts, record.surfaces));
+        if (ray.lost) {
+            write_lost(out, *ray.lost, level);
+        }
+    }
+}
+
 void write_light(TextLines& out, const PixelRecord& record, const LightRecord& light, int level) {
     const Light& source = record.lights[light.light];
     out.line(level, "light " + std::to_string(light.light + 1),
              "at " + brief(source.position) + ", colour " + brief(source.color) + ": " + verdict(light));
-    for (const RayNode& ray : light.rays) {
-        out.line(level + 1, "shadow ray from " + brief(ray.ray.origin) + " towards " + brief(ray.ray.direction));
-        out.line(level + 1, search_words(ray.counts, record.surfaces));
-        if (ray.lost) {
-            write_lost(out, *ray.lost, level + 1);
-        }
-    }
+    write_shadow_rays(out, record, light.rays, false, level + 1);
     out.line(level + 1, "l.n " + brief(light.l_n) + "  r.v " + brief(light.r_v) + "  diffuse " + brief(light.diffuse) +
                             "  specular " + brief(light.specular) + (light.lit ? "" : "  (not added)"));
     out.line(level + 1, "r " + brief(light.mirrored) + ", the light mirrored at the normal");
+}
+
+std::string lamp_verdict(const HitRecord& hit, const LampRecord& lamp) {
+    const Color& light = lamp.unshadowed;
+    if (std::max({light.r, light.g, light.b}) > 0.0F) {
+        return verdict(lamp);
+    }
+    if (!(lamp.sample.pdf > 0.0F)) {
+        return "brings nothing, as its bright side is not seen from the hit";
+    }
+    const bool is_behind = !(glm::dot(hit.normal, lamp.sample.position - hit.position) > 0.0F);
+    return is_behind ? "brings nothing, as it lies behind the surface" : "brings nothing, as the surface takes it all";
+}
+
+std::string brought_words(const LampRecord& lamp, const Color& weight, int depth) {
+    if (!lamp.lit) {
+        return "would bring " + brief(lamp.unshadowed) + "  (not added)";
+    }
+    std::string text = "brings " + brief(lamp.brought());
+    if (weight != k_white) {
+        text += "  to the pixel " + brief(weight * lamp.brought());
+        text += depth > k_sure_bounces + 1 ? ", before roulette" : "";
+    }
+    return text;
+}
+
+void write_lamp(TextLines& out, const PixelRecord& record, const RayNode& node, const LampRecord& lamp,
+                const Color& weight, int level) {
+    const LightSample& sample = lamp.sample;
+    out.line(level, "lamp " + std::to_string(lamp.lamp + 1),
+             "at " + brief(sample.position) + ", radiance " + brief(lamp.light.radiance) + ": " +
+                 lamp_verdict(node.hit->hit, lamp));
+    out.line(level + 1, "normal " + brief(sample.normal) + "  pdf " + brief(sample.pdf) +
+                            " per steradian (by solid angle, as seen from the hit)");
+    if (lamp.scatter_pdf && lamp.weight) {
+        out.line(level + 1, "the path goes there with pdf " + brief(*lamp.scatter_pdf) + ": the sample counts " +
+                                brief(*lamp.weight) + " times " + brief(lamp.unshadowed));
+    }
+    write_shadow_rays(out, record, lamp.rays, true, level + 1);
+    if (lamp.unshadowed != k_black) {
+        out.line(level + 1, brought_words(lamp, weight, node.depth));
+    }
 }
 
 /// Along a path each hit adds its light times the weight so far, and takes its part of the weight.
@@ -154,6 +207,12 @@ void write_ray_of(TextLines& out, const PixelRecord& record, const RayNode& node
         write_hit(out, *node.hit, level + 1);
         for (const LightRecord& light : node.lights) {
             write_light(out, record, light, level + 1);
+        }
+        for (const LampRecord& lamp : node.lamps) {
+            write_lamp(out, record, node, lamp, weight, level + 1);
+        }
+        if (node.lamps_beyond > 0) {
+            out.line(level + 1, "and " + amount(node.lamps_beyond, "more sample") + " of lamps, not kept");
         }
         if (node.path) {
             write_path_step(out, *node.path, node.hit->hit, weight, level + 1);

@@ -57,14 +57,13 @@ RayNode* RayTree::place(const RayOrigin& origin, const Ray& ray, int level) {
     return &made;
 }
 
-RayNode* RayTree::open_shadow_ray(RayNumber of, const Ray& ray) {
-    RayNode* const parent = node(of);
-    if (parent == nullptr || kept_ >= k_max_rays) {
+RayNode* RayTree::open_shadow_ray(RayNumber of, ShadowRecord* light, const Ray& ray) {
+    if (light == nullptr || kept_ >= k_max_rays) {
         return kept(nullptr, ray);
     }
-    RayNode& made = parent->lights.back().rays.emplace_back();
+    RayNode& made = light->rays.emplace_back();
     made.role = RayRole::shadow;
-    made.depth = parent->depth;
+    made.depth = node(of)->depth;
     return kept(&made, ray);
 }
 

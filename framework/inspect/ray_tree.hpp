@@ -28,8 +28,8 @@ public:
     /// The next ray has a number and no place.
     void leave_out();
 
-    /// The place is with the light that was noted last at the hit of that ray.
-    [[nodiscard]] RayNode* open_shadow_ray(RayNumber of, const Ray& ray);
+    /// The place is with a light at the hit of that ray; null: there is none.
+    [[nodiscard]] RayNode* open_shadow_ray(RayNumber of, ShadowRecord* light, const Ray& ray);
 
     /// Null where the ray is not kept.
     [[nodiscard]] RayNode* node(RayNumber ray) const { return ray < rays_.size() ? rays_[ray].node : nullptr; }

@@ -61,6 +61,7 @@ Color DirectLight::of_area_light(std::size_t light, const HitRecord& hit, RayNum
     const Color& radiance = scene_.area_lights[light].radiance;
     const Color color =
         is_metal(hit) ? sampled_metal_light(hit, radiance, sample) : sampled_light(hit, radiance, sample);
+    rays_.area_light_sampled(ray, light, sample, color);
     if (!(std::max({color.r, color.g, color.b}) > 0.0F)) {
         return k_black;
     }

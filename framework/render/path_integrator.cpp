@@ -46,6 +46,7 @@ public:
             }
             const glm::vec3 direction = glm::normalize(sample.position - hit.position);
             samples.push_back({.light = light, .pdf = sample.pdf, .scatter_pdf = scatter_pdf(hit, direction)});
+            rays().area_light_handed_on(next_.from, samples.back());
         });
         rays().lamps_sampled(next_.from, color);
         return samples;

@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "core/color.hpp"
-#include "core/scatter.hpp"
+#include "core/light_sample.hpp"
+#include "core/mis_tracer.hpp"
 #include "core/scene_query.hpp"
 #include "core/stats.hpp"
 
@@ -41,6 +42,12 @@ public:
         return shadow_rays_;
     }
     virtual void light_answered(RayNumber /*ray*/, bool /*lit*/) {}
+
+    /// Of one of the scene's area lights, before step 04 is asked about it: what the sample brings to that ray's hit if
+    /// nothing stands between. Where that is light, step 15 is handed the sample as well.
+    virtual void area_light_sampled(RayNumber /*ray*/, std::size_t /*light*/, const LightSample& /*sample*/,
+                                    const Color& /*unshadowed*/) {}
+    virtual void area_light_handed_on(RayNumber /*ray*/, const DirectSample& /*sample*/) {}
 
     /// Of several rays, each of which starts from the hit of the one before it, the one that gave this hit.
     [[nodiscard]] virtual RayNumber ray_of_hit(const HitRecord& /*hit*/, RayNumber /*first*/, RayNumber last) const {

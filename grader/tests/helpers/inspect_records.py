@@ -1,12 +1,15 @@
 """Small records of pixels for tests of what is made of them; form raysteps/inspect/v1."""
 
+import math
 from typing import Any
 
-from raysteps.common.documents import convert
-from raysteps.inspector.model import Record
+from raysteps.common.documents import convert, plain
+from raysteps.inspector.model import LampSample, Record
 
 _COUNTS = {"box_tests": 2, "boxes_entered": 1, "candidates": 1, "surface_tests": 1, "unique_surfaces": 1}
-_BALL = {"color": [0.9, 0.4, 0.1], "kd": 0.7, "ks": 0.3, "shine": 30, "transmittance": 0, "index": 1}
+_KD = 0.7
+_COLOR = [0.9, 0.4, 0.1]
+_BALL = {"color": _COLOR, "kd": _KD, "ks": 0.3, "shine": 30, "transmittance": 0, "index": 1}
 
 
 def _ray(role: str, depth: int, origin: list[float], direction: list[float], **more: Any) -> dict[str, Any]:
@@ -73,3 +76,20 @@ def ball_record(*, lit: bool = True) -> Record:
     near = {"kind": "sphere", "radii": [1], "color": [0.9, 0.4, 0.1]}
     record["near"] = [{"surface": 0, "points": [[0, 0, 0]], **near}, {"surface": 1, "points": [[0, 0, 2.5]], **near}]
     return convert(record, Record)
+
+
+def lamp_record(*, lit: bool = True) -> Record:
+    """The same pixel in step 12, lit by two lamps: a disk above it, and a ball behind it that brings nothing."""
+    record = ball_record(lit=lit)
+    (light,), record.ray.lights = record.ray.lights, []
+    record.step, record.lights = 12, []
+    brought = [3 * _KD / math.pi * part for part in _COLOR]
+    disk = {"lamp": 0, "shape": "disk", "radiance": [3, 3, 3], "lit": lit, "position": [0, 0, 8], "normal": [0, 0, -1]}
+    disk |= {"pdf": 1.0, "unshadowed": brought, "scatter_pdf": None, "weight": None}
+    disk |= {"brought": brought if lit else [0, 0, 0], "rays": plain(light.rays)}
+    ball = {**disk, "lamp": 1, "shape": "sphere", "position": [0, 0, -8], "normal": [0, 0, 1], "lit": False}
+    ball |= {"unshadowed": [0, 0, 0], "brought": [0, 0, 0], "rays": []}
+    record.ray.lamps = [convert(lamp, LampSample) for lamp in (disk, ball)]
+    record.ray.lamps_beyond = 3
+    record.ray.direct = [0, 0, 0]
+    return record

@@ -8,7 +8,7 @@ import pytest
 from inspect_programs import Workshop, open_workshop
 
 from raysteps.common.process import run
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.mutants import read_alternatives, read_mutants, reference_source
 from raysteps.course.project import Project
 from raysteps.images.compare import Pixels, read_ppm
@@ -29,7 +29,23 @@ _MISTAKES = [
     ("07", "byte-cut-off", "overexposed", ("bytes",), "to_byte"),
     ("08", "snell-upside-down", "glass", ("eye", "refract", "ray"), "refract"),
 ]
-_ALTERNATIVES = {"02": "three-spheres", "04": "acne-corner", "05": "facing-mirrors", "08": "glass"}
+# of step 12, whose samples may take other points than the reference's
+_LAMP_MISTAKES = [
+    ("cosine-forgotten", "sample_disk"),
+    ("disk-not-turned", "sample_disk"),
+    ("area-not-halved", "sample_triangle"),
+    ("triangle-shines-back", "sample_triangle"),
+    ("far-side", "sample_sphere"),
+    ("sphere-normal-inwards", "sample_sphere"),
+    ("surface-cosine-forgotten", "sampled_light"),
+]
+_ALTERNATIVES = {
+    "02": "three-spheres",
+    "04": "acne-corner",
+    "05": "facing-mirrors",
+    "08": "glass",
+    "12": "soft-shadows",
+}
 _PIXELS = [(x, y) for x in (9, 23, 31, 44, 58) for y in (14, 24, 37)]
 
 
@@ -39,7 +55,8 @@ def workshop(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Work
 
 
 def _scene(project: Project, name: str) -> str:
-    return str(project.scenes / "lessons" / f"{name}.nff")
+    (found,) = (project.scenes / "lessons").glob(f"{name}.*")
+    return str(found)
 
 
 def _picture(program: Path, scene: str, step: Step, target: Path) -> Pixels:
@@ -85,16 +102,37 @@ def test_the_place_of_a_mistake_is_marked(project: Project, steps: list[Step], w
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", _ALTERNATIVES)
-def test_another_right_solution_is_no_difference(
-    project: Project, steps: list[Step], workshop: Workshop, number: str
-) -> None:
-    (step,) = (step for step in steps if step.number == number)
+def test_another_right_solution_is_no_difference(project: Project, workshop: Workshop, number: str) -> None:
+    (step,) = (step for step in read_all_steps(project) if step.number == number)
     alternative = read_alternatives(project, step)[0]
     built = workshop.compile(step, alternative.source, f"right-{number}")
     program = workshop.link("inspect", step, built, f"right-{number}")
     for x, y in _PIXELS:
-        options = InspectOptions(_scene(project, _ALTERNATIVES[number]), str(x), str(y), 8, _SIZE)
+        options = InspectOptions(_scene(project, _ALTERNATIVES[number]), str(x), str(y), max(8, step.index), _SIZE)
         mine, reference = inspect(program, options).record, inspect(workshop.reference("inspect"), options).record
         assert mine is not None
         assert reference is not None
         assert find_divergence(mine, reference) is None, (x, y)
+
+
+@pytest.mark.slow
+def test_mistakes_in_samples_of_lamps_are_told(project: Project, workshop: Workshop) -> None:
+    (step,) = (step for step in read_all_steps(project) if step.number == "12")
+    mutants = {mutant.id: mutant for mutant in read_mutants(project, step)}
+
+    def blamed(case: tuple[str, str]) -> tuple[str, str | None]:
+        mistake, _ = case
+        built = workshop.compile(step, mutants[mistake].applied(reference_source(project, step)), f"12-{mistake}")
+        program = workshop.link("inspect", step, built, f"12-{mistake}")
+        for x, y in _PIXELS:
+            options = InspectOptions(_scene(project, "soft-shadows"), str(x), str(y), step.index, _SIZE)
+            mine, reference = inspect(program, options).record, inspect(workshop.reference("inspect"), options).record
+            assert mine is not None
+            assert reference is not None
+            divergence = find_divergence(mine, reference)
+            if divergence is not None:
+                return mistake, divergence.function
+        return mistake, None
+
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(blamed, _LAMP_MISTAKES)) == _LAMP_MISTAKES

@@ -150,6 +150,29 @@ def test_two_paths_of_a_pixel_are_two_records(project: Project, program: Path) -
         inspect(program, InspectOptions(scene, "20", "15", 8, SIZE, "1"))
 
 
+def test_what_samples_of_lamps_bring_is_the_light_of_the_hit(project: Project, program: Path) -> None:
+    scene = str(project.scenes / "lessons" / "soft-shadows.pbrt")
+    lit = blocked = 0
+    for x in range(2, 40, 6):
+        for step in (11, 12):
+            found = inspect(program, InspectOptions(scene, str(x), "27", step, SIZE))
+            assert found.record is not None
+            ray, rays = found.record.ray, found.record.rays
+            if step == 11 or ray.hit is None:
+                assert ray.lamps == []
+                assert "\n  lamp " not in found.text
+                continue
+            assert [lamp.shape for lamp in ray.lamps] == ["disk", "triangle", "triangle", "sphere"]
+            assert found.text.count("\n  lamp ") == 4
+            assert sum(len(lamp.rays) for lamp in ray.lamps) == rays.shadow
+            sums = [sum(map(float, channel)) for channel in zip(*(lamp.brought for lamp in ray.lamps), strict=True)]
+            assert sums == pytest.approx(ray.local, rel=1e-4, abs=1e-6)
+            lit += sum(lamp.lit for lamp in ray.lamps)
+            blocked += sum(not lamp.lit and not lamp.is_dark for lamp in ray.lamps)
+    assert lit > 5
+    assert blocked > 2
+
+
 @pytest.mark.parametrize("scene", ["acne-corner", "cones", "glass", "inside-sphere", "many-spheres", "overexposed"])
 def test_a_pixel_has_the_bytes_and_the_counts_of_the_picture(
     project: Project, program: Path, raytrace: Path, tmp_path: Path, scene: str

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from browser import OpenPage, assert_accessible, assert_large_enough
-from inspect_records import ball_record
+from inspect_records import ball_record, lamp_record
 from play_pages import middle
 
 from raysteps.inspector.divergence import find_divergence
@@ -70,6 +70,30 @@ def test_a_ray_is_chosen_in_the_tree(page: "Page") -> None:
     page.get_by_role("button", name="Show the reflected ray, depth 2 on the stage").click()
     assert page.locator("[data-part=ray]").inner_text() == "reflected ray, depth 2"
     assert page.locator("[data-part=box]").inner_text() == "No boxes were asked for this ray."
+
+
+def test_a_shadow_ray_to_a_sample_of_a_lamp_is_chosen(tmp_path: Path, open_page: OpenPage) -> None:
+    mine, reference = lamp_record(lit=False), lamp_record()
+    write_page(mine, reference, find_divergence(mine, reference), tmp_path / "inside.html")
+    page = open_page(tmp_path / "inside.html")
+    rays = "(name) => document.querySelector('pixel-inside').spaces[name].rays.map(({ id, role }) => [id, role])"
+    shown = [page.evaluate(rays, name) for name in ("mine", "reference")]
+    bounce = ["eye-reflect", "reflect"]
+    assert shown == [
+        [["eye", "eye"], ["eye-lamp1", "blocked"], bounce],
+        [["eye", "eye"], ["eye-lamp1", "lit"], bounce],
+    ]
+    entry = page.locator("#reference-eye-lamp1.parts")  # open, as the difference is there
+    assert "visible" in entry.locator("summary").inner_text()
+    entry.get_by_role("button", name="Show the shadow ray to lamp 1 on the stage").click()
+    assert page.locator("[data-part=ray]").inner_text() == "shadow ray to lamp 1"
+    assert page.evaluate("document.querySelector('pixel-inside').ray.end") == pytest.approx([0, 0, 8.001])
+    said = page.locator("#mine-eye").inner_text()
+    assert "lamp 1, blocked by surface 1 (sphere) at distance 4: at (0, 0, 8)" in said
+    assert "pdf 1 per steradian; would bring (0.60161, 0.26738, 0.066845), not added" in said
+    assert "lamp 2, brings nothing: at (0, 0, -8)" in said
+    assert "and 3 more samples of lamps, not kept" in said
+    assert_accessible(page)
 
 
 def test_without_a_tree_nothing_is_said_of_boxes(tmp_path: Path, open_page: OpenPage) -> None:

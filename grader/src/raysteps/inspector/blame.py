@@ -2,7 +2,7 @@
 
 import math
 
-from raysteps.inspector.model import Accel, Hit, Light, LightShare, Missed, Number, Ray, Way
+from raysteps.inspector.model import Accel, Hit, LampSample, Light, LightShare, Missed, Number, Ray, Way
 from raysteps.inspector.records import (
     CLOSE,
     SHAPES,
@@ -178,6 +178,15 @@ def specular(hit: Hit, light: LightShare, source: Light) -> list[float]:
         return [0.0, 0.0, 0.0]
     weight = as_float(hit.fill.ks) * _power(max(as_float(light.r_v), 0.0), as_float(hit.fill.shine))
     return [weight * value for value in _floats(source.color)]
+
+
+def sampled(hit: Hit, lamp: LampSample) -> list[float]:
+    """Radiance f cos / pdf of a matt surface, by the sample's own numbers."""
+    way, pdf = minus(lamp.position, hit.position), as_float(lamp.pdf)
+    size = length(way)
+    cosine = dot(hit.normal, way) / size if size > 0 else 0.0
+    weight = as_float(hit.fill.kd) / math.pi * cosine / pdf if cosine > 0 and pdf > 0 else 0.0
+    return [weight * a * b for a, b in zip(_floats(lamp.radiance), _floats(hit.fill.color), strict=True)]
 
 
 def direct(lights: list[LightShare]) -> list[float]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from raysteps.inspector import blame as expected
 from raysteps.inspector.blame import blame_bounce, blame_hit, blame_shadow, shown, start_problem
+from raysteps.inspector.lamp_differences import lamp_differences
 from raysteps.inspector.model import Frame, Hit, LightShare, Ray, Record, Way
 from raysteps.inspector.records import (
     CLOSE,
@@ -27,6 +28,7 @@ from raysteps.inspector.records import (
     same_meeting,
     same_number,
     same_point,
+    same_samples,
     surface_name,
     told,
 )
@@ -218,6 +220,8 @@ def along(pair: Pair) -> Iterator[Difference]:
         return
     if mine.local is not None:
         yield from light_differences(pair)
+    if mine.hit is not None:
+        yield from lamp_differences(pair)
     yield from _bounces(pair, "refract")
     through = expected.brought(mine, "refract")
     if diverged(mine.transmitted, reference.transmitted, through, 10 * CLOSE):
@@ -288,7 +292,7 @@ def _ending(mine: Record, reference: Record) -> Iterator[Difference]:
         size = 255 * min(max(as_float(channel), 0.0), 1.0)
         if mine.bytes != reference.bytes and not abs(byte - size) <= 0.51:
             yield Difference(("bytes",), words, "to_byte", f"{size:.2f} was to be rounded to the nearest")
-    if not _as_bright(mine, reference, _BYTES):
+    if not _as_bright(mine, reference, _BYTES) and same_samples(mine.ray, reference.ray):
         yield Difference(("bytes",), words, "", "every part differs by no more than rounding may explain")
 
 

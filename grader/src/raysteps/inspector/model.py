@@ -124,6 +124,28 @@ class LightShare:
 
 
 @dataclass
+class LampSample:
+    """One sample of an area light at a hit, from step 12 on. No ray is sent for one that is black unshadowed."""
+
+    lamp: Count
+    shape: Literal["triangle", "sphere", "disk"]
+    radiance: Triple
+    lit: bool
+    position: Triple
+    normal: Triple
+    pdf: Number  # by solid angle, per steradian as seen from the hit
+    unshadowed: Triple  # what it brings to the hit where nothing stands between
+    scatter_pdf: Number | None  # with which the path would go there; None before step 15, and where it brings nothing
+    weight: Number | None  # of the two ways, by step 15
+    brought: Triple
+    rays: list["Ray"]
+
+    @property
+    def is_dark(self) -> bool:
+        return not any(float(channel) > 0 for channel in self.unshadowed)
+
+
+@dataclass
 class Scattered:
     """Where a path goes on, and what light from there counts."""
 
@@ -163,6 +185,8 @@ class Ray:
     path: PathStep | None
     bounces: list["Ray"]
     color: Triple | None
+    lamps: list[LampSample] = field(default_factory=list, metadata=OPTIONAL)
+    lamps_beyond: Count = field(default=0, metadata=OPTIONAL)  # further samples, which are not kept
 
     @property
     def way(self) -> str:

@@ -8,14 +8,16 @@ from types import MappingProxyType
 from raysteps.common.documents import plain
 from raysteps.common.files import write_out
 from raysteps.common.text import count
-from raysteps.inspector.model import BoxEvent, Hit, LightShare, PathStep, Ray, Record, Way
+from raysteps.inspector.model import BoxEvent, Hit, LampSample, LightShare, PathStep, Ray, Record, Way
 from raysteps.inspector.records import (
     EYE,
     Difference,
     Vector,
+    agreement,
     as_float,
     brief,
     meets,
+    minus,
     point,
     surface_name,
 )
@@ -69,7 +71,9 @@ def _hit(ray: Ray, key: Key, level: int) -> Iterator[Line]:
         yield Line((*key, "view"), level + 1, f"v {_view(hit)}")
 
 
-def light_words(light: LightShare) -> str:
+def light_words(light: LightShare | LampSample) -> str:
+    if isinstance(light, LampSample) and light.is_dark:
+        return "brings nothing"
     if light.lit:
         return "visible" if light.rays else "counts"
     hit = light.rays[-1].hit if light.rays else None
@@ -87,6 +91,45 @@ def _light(light: LightShare, key: Key, level: int) -> Iterator[Line]:
     yield Line((*key, f"mirrored{number}"), level + 1, text)
     text = f"diffuse {point(light.diffuse)}  specular {point(light.specular)}"
     yield Line((*key, f"terms{number}"), level + 1, text)
+
+
+def _lamp_words(lamp: LampSample) -> Iterator[tuple[str, str]]:
+    """Of one sample: where it lies, and what it brings."""
+    yield "sample", f"at {point(lamp.position)}  normal {point(lamp.normal)}  pdf {brief(lamp.pdf)} per steradian"
+    if lamp.scatter_pdf is not None and lamp.weight is not None:
+        words = f"the path goes there with pdf {brief(lamp.scatter_pdf)}: the sample counts {brief(lamp.weight)} times"
+        yield "weight", f"{words} {point(lamp.unshadowed)}"
+    if lamp.lit:
+        yield "brought", f"brings {point(lamp.brought)}"
+    elif not lamp.is_dark:
+        yield "brought", f"would bring {point(lamp.unshadowed)}, not added"
+
+
+def _lamps(ray: Ray, key: Key, level: int) -> Iterator[Line]:
+    for number, lamp in enumerate(ray.lamps, start=1):
+        yield Line((*key, f"lamp{number}"), level, f"lamp {lamp.lamp + 1}: {light_words(lamp)}")
+        for shadow in lamp.rays:
+            text = f"shadow ray {point(shadow.origin)} towards {point(shadow.direction)}"
+            yield Line((*key, f"lamp{number}-shadow"), level + 1, text)
+            yield from _search(shadow, (*key, f"lamp{number}-shadow"), level + 2)
+        for name, text in _lamp_words(lamp):
+            yield Line((*key, f"lamp{number}-{name}"), level + 1, text)
+    if ray.lamps_beyond:
+        yield Line((*key, "lamps-beyond"), level, _beyond_words(ray))
+
+
+def _beyond_words(ray: Ray) -> str:
+    return f"and {count(ray.lamps_beyond, 'more sample')} of lamps, not kept"
+
+
+def _sums(ray: Ray) -> Iterator[tuple[str, str]]:
+    """Over the lights, and over the samples of lamps: what else the hit sends but for what shines through it."""
+    if ray.direct is None:
+        return
+    yield "direct", f"sum over the lights {point(ray.direct)}"
+    if ray.lamps and ray.local is not None:
+        rest = minus(minus(ray.local, ray.direct), ray.transmitted or [0, 0, 0])
+        yield "area-lights", f"area lights {point(rest)}, by one sample of each, and what the surface sends out itself"
 
 
 def _path_words(step: PathStep | None) -> Iterator[tuple[str, str]]:
@@ -113,9 +156,8 @@ def _ray(ray: Ray, key: Key, level: int, record: Record) -> Iterator[Line]:
         yield from _hit(ray, key, level + 1)
     for light in ray.lights:
         yield from _light(light, key, level + 1)
-    if ray.direct is not None:
-        yield Line((*key, "direct"), level + 1, f"sum over the lights {point(ray.direct)}")
-    for name, text in _path_words(ray.path):
+    yield from _lamps(ray, key, level + 1)
+    for name, text in (*_sums(ray), *_path_words(ray.path)):
         yield Line((*key, name), level + 1, text)
     for way in _WAYS:
         for bounce in ray.bounces_of(way):
@@ -222,11 +264,10 @@ def _new(ray: Ray, key: Key, title: str, surfaces: int) -> PageRay:
     return made
 
 
-def _shadow_rays(light: LightShare, key: Key, surfaces: int) -> Iterator[PageRay]:
-    number = light.light + 1
+def _shadow_rays(light: LightShare | LampSample, key: Key, name: str, surfaces: int) -> Iterator[PageRay]:
     for again, ray in enumerate(light.rays):
         more = (f"ray{again + 1}",) if again else ()
-        shadow = _new(ray, (*key, f"light{number}", *more), f"shadow ray to light {number}", surfaces)
+        shadow = _new(ray, (*key, *more), f"shadow ray to {name}", surfaces)
         shadow.ending = light_words(light)
         shadow.role = "lit" if light.lit else "blocked"
         yield shadow
@@ -240,13 +281,18 @@ def page_ray(ray: Ray, record: Record, key: Key = ("eye",)) -> PageRay:
     made.role = ray.way
     made.color = shown_color(ray.color)
     for light in ray.lights:
-        made.children += _shadow_rays(light, key, surfaces)
+        number = light.light + 1
+        made.children += _shadow_rays(light, (*key, f"light{number}"), f"light {number}", surfaces)
         terms = f"r {point(light.mirrored)}  r.v {brief(light.r_v)}  "
         terms += f"diffuse {point(light.diffuse)}  specular {point(light.specular)}"
-        number = light.light + 1
         made.sums.append(f"light {number}, {light_words(light)}: l.n {brief(light.l_n)}  {terms}")
-    if ray.direct is not None:
-        made.sums.append(f"sum over the lights {point(ray.direct)}")
+    for number, lamp in enumerate(ray.lamps, start=1):
+        name = f"lamp {lamp.lamp + 1}"
+        made.children += _shadow_rays(lamp, (*key, f"lamp{number}"), name, surfaces)
+        made.sums.append(f"{name}, {light_words(lamp)}: {'; '.join(text for _, text in _lamp_words(lamp))}")
+    if ray.lamps_beyond:
+        made.sums.append(_beyond_words(ray))
+    made.sums += [text for _, text in _sums(ray)]
     for bounce in ray.bounces:
         made.children.append(page_ray(bounce, record, (*key, bounce.way)))
     if ray.transmitted is not None and any(map(as_float, ray.transmitted)):
@@ -285,6 +331,7 @@ def page_html(
         "reference": reference,
         "trees": trees,
         "divergence": divergence,
+        "agreement": "" if reference is None else agreement(record, reference),
         "pictures": pictures,
         "parts_at": {name: _parts_at(tree, divergence) for name, tree in trees.items()},
         "swatch": shown_color([byte / 255 for byte in record.bytes] if record.bytes else None),

@@ -162,6 +162,22 @@ def same_meeting(one: Hit | None, other: Hit | None, close: float) -> bool:
     return alike and same_number(one.distance, other.distance, close, 1e-5)
 
 
+def same_samples(mine: Ray, reference: Ray) -> bool:
+    """Whether the samples of lamps at these hits, and at those of the rays that follow, took the same points."""
+    reach = length(reference.hit.position) if reference.hit is not None else 0.0
+    pairs = zip(mine.lamps, reference.lamps, strict=False)
+    return all(same_point(own.position, theirs.position, 10 * CLOSE, reach) for own, theirs in pairs) and all(
+        same_samples(*bounces) for bounces in zip(mine.bounces, reference.bounces, strict=False)
+    )
+
+
+def agreement(mine: Record, reference: Record) -> str:
+    """What is said of two that do not part."""
+    if same_samples(mine.ray, reference.ray):
+        return "both come to the same colour in the same way"
+    return "the samples of lamps took other points, as they may, and each is right for the point that it took"
+
+
 # Hit records that contradict their ray: told without the reference, by what the contract promises.
 
 _CLOSE = 1e-3  # of how far the ray went; numbers of a single float come much closer

@@ -13,7 +13,7 @@ from raysteps.common.text import count
 from raysteps.course.manifest import Step
 from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import Key, Line, lines_of
-from raysteps.inspector.records import Difference
+from raysteps.inspector.records import Difference, agreement
 
 _WIDE = 110  # columns; below, one tree stands under the other
 _WIDEST = 180
@@ -119,7 +119,7 @@ def print_verdict(
     """The first difference and the function that it points to."""
     cost = cost_words(mine, reference)
     if divergence is None:
-        console.print("[green]No difference[/green]: both come to the same colour in the same way.")
+        console.print(f"[green]No difference[/green]: {agreement(mine, reference)}.")
     else:
         console.print(f"[bold red]First difference[/bold red]: {escape(divergence.words)}.", highlight=False)
         if divergence.why:

@@ -43,6 +43,7 @@ NEVER = (
     "raysteps.grading.pipeline",
     "raysteps.inspector.blame",
     "raysteps.inspector.divergence",
+    "raysteps.inspector.lamp_differences",
     "raysteps.inspector.side_by_side",
     "raysteps.judge",
     "raysteps.release",

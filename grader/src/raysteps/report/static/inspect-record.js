@@ -20,13 +20,17 @@ const insidePlain = (vector) => vector.map(insideNumber).map((value) => (Number.
  */
 function insideRays(ray, id = "eye") {
   const way = (one) => (one.role === "internal" ? "refract" : one.role); // glass does so where it would refract
-  const shadows = ray.lights.flatMap(({ light, lit, rays }) =>
+  const shadowsOf = ({ lit, rays }, name) =>
     rays.map((shadow, again) => ({
-      id: `${id}-light${light + 1}${again ? `-ray${again + 1}` : ""}`,
+      id: `${id}-${name}${again ? `-ray${again + 1}` : ""}`,
       role: lit ? "lit" : "blocked",
       ray: shadow,
-    })),
-  );
+    }));
+  const lamps = ray.lamps ?? []; // of area lights
+  const shadows = [
+    ...ray.lights.flatMap((one) => shadowsOf(one, `light${one.light + 1}`)),
+    ...lamps.flatMap((one, at) => shadowsOf(one, `lamp${at + 1}`)),
+  ];
   const bounces = ray.bounces.flatMap((bounce) => insideRays(bounce, `${id}-${way(bounce)}`));
   return [{ id, role: way(ray), ray }, ...shadows, ...bounces];
 }

@@ -1,0 +1,117 @@
+"""Where samples of area lights part. Which point of a lamp a sample takes is up to each solution: so each is held
+against what its contract says of the point that it took."""
+
+from collections.abc import Iterator
+
+from raysteps.inspector.blame import blame_shadow, sampled
+from raysteps.inspector.model import Hit, LampSample
+from raysteps.inspector.records import (
+    CLOSE,
+    Difference,
+    Pair,
+    Vector,
+    as_float,
+    brief,
+    diverged,
+    dot,
+    is_finite,
+    length,
+    minus,
+    not_unit,
+    point,
+    same_direction,
+    same_number,
+    same_point,
+    surface_name,
+)
+
+_PDF = 10 * CLOSE  # share; where a lamp is seen along its surface, rounding moves it more
+_LEAST_COSINE = 0.02
+_FIRST_MATERIALS = 14  # the step from which on a surface may be metal
+
+
+def _area_pdf(lamp: LampSample, hit: Hit, normal: Vector) -> float | None:
+    """The density by area that the one by solid angle stands for; nothing where the lamp is seen along its surface."""
+    back = minus(hit.position, lamp.position)
+    size = length(back)
+    cosine = dot(normal, back) / size if size > 0 else 0.0
+    return as_float(lamp.pdf) * cosine / (size * size) if cosine > _LEAST_COSINE else None
+
+
+def _same_pdf(pair: Pair, own: LampSample, theirs: LampSample) -> bool:
+    if own.shape == "sphere":
+        return same_number(own.pdf, theirs.pdf, _PDF + pair.close)
+    areas = [_area_pdf(lamp, hit, theirs.normal) for lamp, hit in zip((own, theirs), pair.hits, strict=True)]
+    if areas[0] is not None and areas[1] is not None:
+        return same_number(areas[0], areas[1], _PDF + pair.close)
+    is_behind = dot(theirs.normal, minus(pair.hits[0].position, own.position)) < 0
+    return not (is_behind and as_float(own.pdf) > 0)
+
+
+def _on_the_same_lamp(own: LampSample, theirs: LampSample) -> bool:
+    """Two points of a plane, or two of a sphere whose normals differ as they do."""
+    apart, turned = minus(own.position, theirs.position), minus(own.normal, theirs.normal)
+    rounding = 10 * CLOSE * max(1.0, length(theirs.position))
+    if own.shape != "sphere":
+        return abs(dot(apart, theirs.normal)) <= rounding
+    radius = length(apart) / max(length(turned), 1e-6)
+    return length(minus(apart, [radius * part for part in turned])) <= 0.02 * length(apart) + rounding
+
+
+def _sample(pair: Pair, own: LampSample, theirs: LampSample) -> Iterator[tuple[str, str, str]]:
+    """The point, its normal and its density: words, function and why."""
+    function = f"sample_{own.shape}"
+    if not is_finite([*own.position, own.pdf]):
+        yield f"yours is at {point(own.position)} with pdf {brief(own.pdf)}", function, ""
+    if as_float(theirs.pdf) == 0 == as_float(own.pdf):
+        return
+    strays = own.shape != "sphere" and not same_direction(own.normal, theirs.normal)
+    if strays or not_unit(own.normal):
+        words = f"its normal is {point(own.normal)}, the reference's {point(theirs.normal)}"
+        yield words, function, not_unit(own.normal)
+    away = dot(own.normal, minus(pair.hits[0].position, own.position))
+    if own.shape == "sphere" and not away > -CLOSE * max(1.0, length(own.position)):
+        yield f"at {point(own.position)} its normal {point(own.normal)} points away from the hit", function, ""
+    if not _on_the_same_lamp(own, theirs):
+        yield f"yours at {point(own.position)} with the normal {point(own.normal)} is off the lamp", function, ""
+    if not _same_pdf(pair, own, theirs):
+        words = f"its pdf is {brief(own.pdf)} at {point(own.position)}, the reference's {brief(theirs.pdf)}"
+        yield f"{words} at {point(theirs.position)}", function, "" if own.shape == "sphere" else "or solid_angle_pdf"
+
+
+def _shadow(pair: Pair, own: LampSample, theirs: LampSample) -> Iterator[tuple[str, str, str]]:
+    if not own.rays:
+        if theirs.rays and own.lit != theirs.lit:
+            yield "yours casts no shadow ray", "is_lit", ""
+        return
+    ray = own.rays[-1]
+    way = minus(own.position, ray.origin)
+    size = length(way)
+    if size > 0.1 and not same_direction(ray.direction, [part / size for part in way], 10 * pair.close + 0.01 / size):
+        yield f"its shadow ray goes towards {point(ray.direction)}, not to the sample", "shadow_ray", ""
+    elif theirs.rays and own.lit != theirs.lit and same_point(own.position, theirs.position, 10 * CLOSE, 1.0):
+        function, why = blame_shadow(ray, theirs.rays[-1], pair.hits[0], pair.accel, lit=own.lit)
+        yield f"its shadow ray {_verdict(own)}, the reference's {_verdict(theirs)}", function, why
+
+
+def _verdict(lamp: LampSample) -> str:
+    hit = lamp.rays[-1].hit
+    blocked = "is blocked" if hit is None else f"is blocked by {surface_name(hit)}"
+    return "is free" if lamp.lit else blocked
+
+
+def lamp_differences(pair: Pair) -> Iterator[Difference]:
+    """Each sample: where it lies, what it could bring, and what stands between."""
+    for number, (own, theirs) in enumerate(zip(pair.mine.lamps, pair.reference.lamps, strict=False), start=1):
+        if own.lamp != theirs.lamp:
+            return
+        name = f"sample of lamp {own.lamp + 1}"
+        for words, function, why in _sample(pair, own, theirs):
+            yield pair.at(f"lamp{number}", f"{name}: {words}", function, why)
+        if pair.step < _FIRST_MATERIALS:
+            right = sampled(pair.hits[0], own)
+            if diverged(own.unshadowed, theirs.unshadowed, right, 10 * CLOSE):
+                words = f"without shadows it brings {point(own.unshadowed)}, and {point(right)} by its own numbers"
+                yield pair.at(f"lamp{number}", f"{name}: {words}", "sampled_light")
+        for words, function, why in _shadow(pair, own, theirs):
+            yield pair.at(f"lamp{number}", f"{name}: {words}", function, why)
