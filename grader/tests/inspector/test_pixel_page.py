@@ -72,6 +72,16 @@ def test_a_ray_is_chosen_in_the_tree(page: "Page") -> None:
     assert page.locator("[data-part=box]").inner_text() == "No boxes were asked for this ray."
 
 
+@pytest.mark.parametrize(("at", "goal"), [(0.0, 1), (3.8, 3.8), (4.0, 1)])
+def test_the_stage_looks_at_what_is_hit(at: float, goal: float, tmp_path: Path, open_page: OpenPage) -> None:
+    """But not at what lies far behind the point that the camera looks at, if it is not just a direction."""
+    record = ball_record()
+    record.camera["at"] = [0, 0, at]
+    write_page(record, None, None, tmp_path / "inside.html")
+    page = open_page(tmp_path / "inside.html")
+    assert page.evaluate("document.querySelector('pixel-inside').view.orbit.at") == pytest.approx([0, 0, goal])
+
+
 def test_a_shadow_ray_to_a_sample_of_a_lamp_is_chosen(tmp_path: Path, open_page: OpenPage) -> None:
     mine, reference = lamp_record(lit=False), lamp_record()
     write_page(mine, reference, find_divergence(mine, reference), tmp_path / "inside.html")
