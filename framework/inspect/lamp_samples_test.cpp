@@ -68,9 +68,8 @@ TEST_CASE("what samples of lamps bring adds up to the direct light of each hit",
         REQUIRE(node.lamps.size() == 2);
         CHECK_THAT(sum_of_lamps(node), IsNear(direct, 1e-4F));
         for (const LampRecord& lamp : node.lamps) {
-            const bool is_dark = lamp.unshadowed == k_black;
-            ++(is_dark ? dark : lamp.lit ? lit : blocked);
-            CHECK(lamp.rays.size() == (is_dark ? 0U : 1U));
+            ++(lamp.is_dark() ? dark : lamp.lit ? lit : blocked);
+            CHECK(lamp.rays.size() == (lamp.is_dark() ? 0U : 1U));
             CHECK((lamp.lit || lamp.brought() == k_black));
         }
     };
@@ -190,6 +189,21 @@ TEST_CASE("a lamp that no sample shows is told why", "[inspect]") {
     add_lamp(scene, {{0.0F, 8.0F, 0.0F}, 0.5F}, k_white);
     scene.add(std::make_unique<Sphere>(glm::vec3(0.0F), 1.0F, Fill{.color = k_black}));
     CHECK(has_text(middle_of(scene, 12), ": brings nothing, as the surface takes it all\n"));
+}
+
+TEST_CASE("light below 0, and a density that is no number, are told as what they are", "[inspect]") {
+    Scene scene = floor_below();
+    add_lamp(scene, {{0.0F, 8.0F, 0.0F}, 0.5F}, k_white);
+    PixelRecord record = middle_of(scene, 12);
+    LampRecord& lamp = record.eye.lamps.at(0);
+    lamp.unshadowed = Color(-1.0F, 0.0F, std::nanf(""));
+    CHECK(lamp.is_dark());
+    CHECK(has_text(record, ": brings nothing, as no light is (-1, 0, nan)\n"));
+    CHECK_FALSE(has_text(record, "would bring"));
+    lamp.sample.pdf = std::nanf("");
+    CHECK(has_text(record, ": brings nothing, as no density is nan\n"));
+    lamp.unshadowed.g = 0.5F;
+    CHECK_FALSE(lamp.is_dark());
 }
 
 TEST_CASE("of many lamps the samples are counted, and 64 of a hit kept", "[inspect]") {

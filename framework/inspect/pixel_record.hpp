@@ -108,6 +108,7 @@ struct LampRecord : ShadowRecord {
     std::optional<float> scatter_pdf;  ///< as step 15 was told it; nothing where it was not
     std::optional<float> weight;       ///< step 15's power heuristic of both densities
 
+    [[nodiscard]] bool is_dark() const { return !(unshadowed.r > 0.0F || unshadowed.g > 0.0F || unshadowed.b > 0.0F); }
     [[nodiscard]] Color brought() const { return lit ? weight.value_or(1.0F) * unshadowed : k_black; }
 };
 

@@ -1,6 +1,5 @@
 #include "inspect/ray_text.hpp"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "inspect/search_text.hpp"
@@ -106,9 +105,14 @@ void write_light(TextLines& out, const PixelRecord& record, const LightRecord& l
 }
 
 std::string lamp_verdict(const HitRecord& hit, const LampRecord& lamp) {
-    const Color& light = lamp.unshadowed;
-    if (std::max({light.r, light.g, light.b}) > 0.0F) {
+    if (!lamp.is_dark()) {
         return verdict(lamp);
+    }
+    if (!(lamp.sample.pdf >= 0.0F)) {
+        return "brings nothing, as no density is " + brief(lamp.sample.pdf);
+    }
+    if (lamp.unshadowed != k_black) {
+        return "brings nothing, as no light is " + brief(lamp.unshadowed);
     }
     if (!(lamp.sample.pdf > 0.0F)) {
         return "brings nothing, as its bright side is not seen from the hit";
@@ -142,7 +146,7 @@ void write_lamp(TextLines& out, const PixelRecord& record, const RayNode& node, 
                                 brief(*lamp.weight) + " times " + brief(lamp.unshadowed));
     }
     write_shadow_rays(out, record, lamp.rays, true, level + 1);
-    if (lamp.unshadowed != k_black) {
+    if (!lamp.is_dark()) {
         out.line(level + 1, brought_words(lamp, weight, node.depth));
     }
 }

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from raysteps.common.documents import convert, plain
 from raysteps.inspector.divergence import find_divergence
-from raysteps.inspector.model import LampSample, Record
+from raysteps.inspector.model import LampSample, PathStep, Record
 from raysteps.inspector.pixel_page import page_html
 from raysteps.inspector.side_by_side import print_trees, print_verdict
 
@@ -110,6 +110,12 @@ def test_a_point_of_a_sphere_is_seen_from_the_hit_and_all_are_as_likely(change: 
     assert found.words.startswith(f"sample of lamp 2: {words}")
 
 
+def _brings(lamp: LampSample, cosine: float) -> None:
+    """To the surface, by its own density."""
+    lamp.unshadowed = [3 * 0.7 / math.pi * max(0.0, cosine) / float(lamp.pdf) * part for part in (0.9, 0.4, 0.1)]
+    lamp.brought = list(lamp.unshadowed)
+
+
 def _at_another_point(record: Record) -> None:
     """A right sample of the same disk, whose area is 49."""
     lamp, shadow = record.ray.lamps[0], record.ray.lamps[0].rays[0]
@@ -118,7 +124,7 @@ def _at_another_point(record: Record) -> None:
     cosine = way[2] / size
     lamp.position = [3, 0, 8]
     lamp.pdf = size**2 / cosine / 49
-    lamp.unshadowed = lamp.brought = [3 * 0.7 / math.pi * cosine / lamp.pdf * part for part in (0.9, 0.4, 0.1)]
+    _brings(lamp, cosine)
     shadow.direction = [part / size for part in way]
     record.ray.local = record.ray.color = record.color = list(lamp.brought)
     record.mapped, record.bytes = None, [90, 70, 20]
@@ -130,10 +136,96 @@ def test_another_point_is_no_difference_and_told() -> None:
     assert find_divergence(mine, reference) is None
     console = Console(width=160, record=True, file=io.StringIO())
     print_verdict(console, [], mine, reference, None)
-    assert "No difference: the samples of lamps took other points, as they may" in console.export_text()
-    assert "The samples of lamps took other points, as they may" in page_html(mine, reference)
+    assert "No difference: the samples of lamps took other points, as they may;" in console.export_text()
+    assert "by itself. How points are spread one pixel does not show." in page_html(mine, reference)
     same = page_html(reference, lamp_record())
     assert "Both come to the same colour in the same way." in same
+
+
+def _on_the_wall(record: Record, height: float) -> LampSample:
+    """A right sample of a disk of area 4 at x = 5, so high above the hit or below its horizon."""
+    lamp = record.ray.lamps[0]
+    size = math.hypot(5, height)
+    lamp.position, lamp.normal, lamp.pdf = [5, 0, 1 + height], [-1, 0, 0], size**3 / 5 / 4
+    _brings(lamp, height / size)
+    lamp.rays[0].direction = [5 / size, 0, height / size]
+    record.ray.local = record.ray.color = record.color = list(lamp.brought)
+    record.mapped, record.bytes = None, [20, 20, 20] if height > 0 else [0, 0, 0]
+    if height < 0:
+        lamp.lit, lamp.rays = False, []
+    return lamp
+
+
+def test_a_point_below_the_horizon_is_rightly_dark() -> None:
+    mine, reference = lamp_record(), lamp_record()
+    _on_the_wall(mine, -1.0)
+    _on_the_wall(reference, 1.0)
+    assert find_divergence(mine, reference) is None
+    assert find_divergence(reference, mine) is None
+    _on_the_wall(mine := lamp_record(), 0.5).unshadowed = [0, 0, 0]
+    found = find_divergence(mine, reference)
+    assert found is not None
+    assert found.function == "sampled_light"
+
+
+def _leans(lamp: LampSample) -> None:
+    lamp.normal = [0, 0, 1.004]
+
+
+def _sees_nothing(lamp: LampSample) -> None:
+    lamp.position, lamp.normal, lamp.pdf = [0, 0, 0], [0, 0, 0], 0
+
+
+def _sees_something(lamp: LampSample) -> None:
+    lamp.position, lamp.normal, lamp.pdf = [0, 0.001, 1], [0, 0, 1], 0.159
+
+
+def _sees_little(lamp: LampSample) -> None:
+    lamp.position, lamp.normal, lamp.pdf = [4, 0, 1], [0, 0, -1], 1e-7
+
+
+@pytest.mark.parametrize(
+    ("number", "mine", "reference"),
+    [
+        (1, _leans, lambda _: None),  # a solution that divides by the radius
+        (1, _sees_nothing, _sees_something),
+        (1, _sees_something, _sees_nothing),
+        (0, _sees_little, _sees_nothing),
+    ],
+)
+def test_what_rounding_decides_is_no_difference(number: int, mine: Change, reference: Change) -> None:
+    """The hit lies on the lamp itself, or the ball is small."""
+    records = [lamp_record(), lamp_record()]
+    for record, change in zip(records, (mine, reference), strict=True):
+        change(record.ray.lamps[number])
+        for lamp in record.ray.lamps:
+            lamp.unshadowed, lamp.lit, lamp.brought, lamp.rays = [0, 0, 0], False, [0, 0, 0], []
+            lamp.radiance = [0, 0, 0]
+    assert find_divergence(*records) is None
+
+
+def test_a_lamp_that_all_or_none_see_is_held_against_the_reference() -> None:
+    for lit, other in ((_sees_nothing, _likelier), (_likelier, _sees_nothing)):
+        mine, reference = lamp_record(), lamp_record()
+        lit(mine.ray.lamps[1])
+        other(reference.ray.lamps[1])
+        found = find_divergence(mine, reference)
+        assert found is not None
+        assert (found.place, found.function) == (("eye", "lamp2"), "sample_sphere")
+
+
+def test_along_a_path_other_points_bring_another_colour() -> None:
+    mine, reference = lamp_record(), lamp_record()
+    for record in (mine, reference):
+        record.step, record.ray.local, record.ray.direct = 13, None, None
+        record.ray.path = PathStep(lamps=record.ray.lamps[0].brought, scatter=None)
+    mine.ray.color = mine.color = [0.1, 0.1, 0.1]
+    found = find_divergence(mine, reference)
+    assert found is not None
+    assert (found.place, found.function) == (("eye", "color"), "trace")
+    _at_another_point(mine)
+    mine.ray.local = None
+    assert find_divergence(mine, reference) is None
 
 
 def test_a_wrong_pdf_at_another_point_is_found() -> None:

@@ -72,10 +72,15 @@ def test_a_ray_is_chosen_in_the_tree(page: "Page") -> None:
     assert page.locator("[data-part=box]").inner_text() == "No boxes were asked for this ray."
 
 
-@pytest.mark.parametrize(("at", "goal"), [(0.0, 1), (3.8, 3.8), (4.0, 1)])
-def test_the_stage_looks_at_what_is_hit(at: float, goal: float, tmp_path: Path, open_page: OpenPage) -> None:
+@pytest.mark.parametrize(
+    ("scene", "at", "goal"), [("ball.nff", 0.0, 1), ("ball.nff", 4.0, 4), ("ball.nff", 3.8, 3.8), ("ball.pbrt", 4.0, 1)]
+)
+def test_the_stage_looks_at_what_is_hit(
+    scene: str, at: float, goal: float, tmp_path: Path, open_page: OpenPage
+) -> None:
     """But not at what lies far behind the point that the camera looks at, if it is not just a direction."""
     record = ball_record()
+    record.scene = scene
     record.camera["at"] = [0, 0, at]
     write_page(record, None, None, tmp_path / "inside.html")
     page = open_page(tmp_path / "inside.html")

@@ -13,7 +13,6 @@ from raysteps.inspector.records import (
     Difference,
     Pair,
     as_float,
-    brief,
     coarser,
     diverged,
     dot,
@@ -29,7 +28,7 @@ from raysteps.inspector.records import (
     same_number,
     same_point,
     same_samples,
-    surface_name,
+    shadow_words,
     told,
 )
 
@@ -69,11 +68,7 @@ def hit_differences(pair: Pair) -> Iterator[Difference]:
 def _verdict(light: LightShare) -> str:
     if light.lit:
         return "is free"
-    rays = light.rays
-    if not rays:
-        return "was never cast, and the light is said to be hidden"
-    hit = rays[-1].hit
-    return "is blocked" if hit is None else f"is blocked by {surface_name(hit)} at distance {brief(hit.distance)}"
+    return f"is {shadow_words(light)}" if light.rays else "was never cast, and the light is said to be hidden"
 
 
 def _shadow(pair: Pair, mine: LightShare, reference: LightShare) -> Iterator[Difference]:
@@ -229,7 +224,8 @@ def along(pair: Pair) -> Iterator[Difference]:
         yield pair.at("transmitted", f"{words}, the reference's {told(reference.transmitted)}", "transmitted_light")
     yield from _bounces(pair, "reflect")
     whole = expected.added(mine.local, expected.brought(mine, "reflect")) if pair.step >= 5 else None
-    if not expected.is_unseen(mine) and diverged(mine.color, reference.color, whole, 10 * CLOSE):
+    may_differ = expected.is_unseen(mine) or (mine.path is not None and not same_samples(mine, reference))
+    if not may_differ and diverged(mine.color, reference.color, whole, 10 * CLOSE):
         words = f"the colour of the ray is {told(mine.color)}, the reference's {told(reference.color)}"
         yield pair.at("color", words, "trace" if pair.step >= 5 else "")
 

@@ -19,7 +19,7 @@ from raysteps.inspector.records import (
     meets,
     minus,
     point,
-    surface_name,
+    shadow_words,
 )
 from raysteps.report.page import SPACE_SCRIPTS, PictureData, render_page
 
@@ -76,8 +76,7 @@ def light_words(light: LightShare | LampSample) -> str:
         return "brings nothing"
     if light.lit:
         return "visible" if light.rays else "counts"
-    hit = light.rays[-1].hit if light.rays else None
-    return "hidden" if hit is None else f"blocked by {surface_name(hit)} at distance {brief(hit.distance)}"
+    return shadow_words(light) if light.rays else "hidden"
 
 
 def _light(light: LightShare, key: Key, level: int) -> Iterator[Line]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from raysteps.inspector.model import Accel, Hit, Light, Number, Ray, Record
+from raysteps.inspector.model import Accel, Hit, LampSample, Light, LightShare, Number, Ray, Record
 
 Vector = Sequence[Number]
 
@@ -144,10 +144,16 @@ def surface_name(hit: Hit) -> str:
     return "something that is no surface" if hit.surface is None else f"surface {hit.surface} ({hit.kind})"
 
 
-def not_unit(direction: Vector) -> str:
+def shadow_words(light: LightShare | LampSample) -> str:
+    """Of one that does not arrive: what stands in its way."""
+    hit = light.rays[-1].hit if light.rays else None
+    return "blocked" if hit is None else f"blocked by {surface_name(hit)} at distance {brief(hit.distance)}"
+
+
+def not_unit(direction: Vector, close: float = 1e-3) -> str:
     """Says so of a direction whose length is not 1."""
     size = length(direction)
-    return "" if abs(size - 1) < 1e-3 else f"its length is {size:.4g} and not 1"
+    return "" if abs(size - 1) < close else f"its length is {size:.4g} and not 1"
 
 
 def meets(hit: Hit | None) -> str:
@@ -163,19 +169,25 @@ def same_meeting(one: Hit | None, other: Hit | None, close: float) -> bool:
 
 
 def same_samples(mine: Ray, reference: Ray) -> bool:
-    """Whether the samples of lamps at these hits, and at those of the rays that follow, took the same points."""
+    """Whether the samples of lamps at these hits, and at those of the rays that follow, took the same points. Where no
+    density is above 0 the point means nothing."""
     reach = length(reference.hit.position) if reference.hit is not None else 0.0
     pairs = zip(mine.lamps, reference.lamps, strict=False)
-    return all(same_point(own.position, theirs.position, 10 * CLOSE, reach) for own, theirs in pairs) and all(
-        same_samples(*bounces) for bounces in zip(mine.bounces, reference.bounces, strict=False)
-    )
+    return all(
+        same_point(own.position, theirs.position, 10 * CLOSE, reach)
+        for own, theirs in pairs
+        if as_float(own.pdf) > 0 and as_float(theirs.pdf) > 0
+    ) and all(same_samples(*bounces) for bounces in zip(mine.bounces, reference.bounces, strict=False))
 
 
 def agreement(mine: Record, reference: Record) -> str:
     """What is said of two that do not part."""
     if same_samples(mine.ray, reference.ray):
         return "both come to the same colour in the same way"
-    return "the samples of lamps took other points, as they may, and each is right for the point that it took"
+    return (
+        "the samples of lamps took other points, as they may; nothing is wrong with any of them by itself. "
+        "How points are spread one pixel does not show"
+    )
 
 
 # Hit records that contradict their ray: told without the reference, by what the contract promises.

@@ -86,10 +86,10 @@ function insideCamera({ camera, frame }) {
  * What the pixel shows; a sky far behind the scene is no good place to look at. How far the scene is says `at`, but not
  * that of a scene of pbrt: there it is one unit away.
  */
-function insideGoal({ camera, ray }) {
+function insideGoal({ scene, camera, ray }) {
   const [from, at] = [camera.from, camera.at].map(insidePlain);
   const away = Math.hypot(...sub3(at, from));
-  const far = Math.abs(away - 1) < 1e-4 ? Infinity : insideFar * away;
+  const far = scene.endsWith(".pbrt") ? Infinity : insideFar * away;
   const isNear = ray.hit && insideIsFinite(ray.hit.position) && Math.hypot(...sub3(ray.hit.position, from)) <= far;
   return isNear ? ray.hit.position : at;
 }
