@@ -239,7 +239,8 @@ def grading_tables(document: GradingNumbers) -> str:
         (mean.way, str(mean.runs), str(mean.submissions), f"{mean.seconds:.2f}", f"{mean.cpu_seconds:.2f}")
         for mean in mean_costs(document.costs)
     ]
-    return markdown(("way", "runs", "submissions at a time", "seconds each", "CPU seconds each"), rows)
+    table = markdown(("way", "runs", "submissions at a time", "seconds each", "CPU seconds each"), rows)
+    return f"{machine_line(document.machine)}\n\n{table}"
 
 
 # Figures.

@@ -103,7 +103,7 @@ def grading(project: Project, rounds: int, console: Console) -> int:
     refuse_on_windows("bench grading")
     steps = read_steps(project)
     with console.status("starting") as status:  # both runs of a class share it
-        build_kit(project, progress(console, status))
+        kit = build_kit(project, progress(console, status))
     costs: list[Cost] = []
     with tempfile.TemporaryDirectory(prefix="raysteps-bench-") as name:
         submissions = class_of(project, Path(name) / "class", _CLASS_SIZE)
@@ -118,7 +118,7 @@ def grading(project: Project, rounds: int, console: Console) -> int:
                     alone = partial(_class_way, project, submissions, out / step.number, step.number)
                     costs.append(_measure(f"step {step.number}", number, _CLASS_SIZE, alone))
     console.print(_table(costs))
-    keep(project, GradingNumbers(costs=costs), console)
+    keep(project, GradingNumbers(machine=machine(kit.folder), costs=costs), console)
     return 0
 
 
@@ -179,7 +179,7 @@ def bench_loop(project: Project, steps: list[str], rounds: int, console: Console
         for step in chosen:
             with console.status(f"changing and checking step {step.id}"):
                 rows.append(_measured_loop(copy, step, rounds))
-        found = machine(release_tree(copy))
+        found = machine(release_tree(copy).folder)
     table = terminal_table("from a saved file to the result of check", ("step", "median", "least", "most"))
     for row in rows:
         spread = row.seconds

@@ -389,7 +389,8 @@ class GradingNumbers:
     """A submission in a class, against the plain way."""
 
     name: ClassVar[str] = "grading"
-    schema: Literal["raysteps/bench-grading/v1"] = "raysteps/bench-grading/v1"
+    schema: Literal["raysteps/bench-grading/v2"] = "raysteps/bench-grading/v2"
+    machine: Machine
     costs: Annotated[list[Cost], Meta(min_length=1)]
 
 

@@ -177,7 +177,7 @@ def bench_play(project: Project, names: list[str], rounds: int, console: Console
     finally:
         server.close()
     numbers = PlayNumbers(
-        machine=machine(release_tree(project)),
+        machine=machine(release_tree(project).folder),
         browser=version,
         first_bytes=size,
         first_seconds=seconds,

@@ -56,9 +56,9 @@ def _processor() -> str:
     return names[0] if names else platform.processor() or platform.machine()
 
 
-def machine(tree: BuildTree) -> Machine:
-    """This machine, and how the tree's programs are compiled."""
-    description = read_description(tree.folder / "kit.json")
+def machine(built: Path) -> Machine:
+    """This machine, and how the programs in a folder are compiled."""
+    description = read_description(built / "kit.json")
     optimization = [flag for flag in description.compile_flags if flag.startswith(("-O", "-m", "/O"))]
     system = f"{platform.system()} {platform.machine()}"
     flags = " ".join(optimization)
@@ -95,7 +95,7 @@ def _built(tree: BuildTree, name: str) -> Programs:
         outcome = tree.build(["raysteps-bench", "raytrace-reference"], _say_how_far)
     if outcome.code != 0:
         raise GraderFault("the benchmarks do not build:\n" + what_failed(outcome))
-    return Programs(name, tree.program("raysteps-bench"), tree.program("raytrace-reference"), machine(tree))
+    return Programs(name, tree.program("raysteps-bench"), tree.program("raytrace-reference"), machine(tree.folder))
 
 
 def portable(project: Project) -> Programs:

@@ -126,7 +126,7 @@ def bench_waits(project: Project, options: WaitsOptions, console: Console) -> in
         submissions = class_of(kit, folder / "class", options.submissions)
         words = ("grade-class", submissions, "--out", folder / "grades", "--jobs", str(os.cpu_count() or 1))
         rows.append(typed.row(f"grade-class, {options.submissions} submissions", 1, *words))
-        found = machine(release_tree(kit))
+        found = machine(release_tree(kit).folder)
     table = terminal_table("how long a person waits, in seconds", ("way", "least", "median", "of processors"))
     for row in rows:
         least, usual = f"{row.seconds.min:.2f}", median(row.seconds, 2)
