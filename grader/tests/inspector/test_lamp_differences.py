@@ -3,6 +3,7 @@
 import io
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 from inspect_records import lamp_record
@@ -10,7 +11,7 @@ from rich.console import Console
 
 from raysteps.common.documents import convert, plain
 from raysteps.inspector.divergence import find_divergence
-from raysteps.inspector.model import LampSample, PathStep, Record
+from raysteps.inspector.model import LampSample, PathStep, Record, Scattered, Triple
 from raysteps.inspector.pixel_page import page_html
 from raysteps.inspector.side_by_side import print_trees, print_verdict
 
@@ -136,8 +137,8 @@ def test_another_point_is_no_difference_and_told() -> None:
     assert find_divergence(mine, reference) is None
     console = Console(width=160, record=True, file=io.StringIO())
     print_verdict(console, [], mine, reference, None)
-    assert "No difference: the samples of lamps took other points, as they may;" in console.export_text()
-    assert "by itself. How points are spread one pixel does not show." in page_html(mine, reference)
+    assert "No difference: the samples of lamps took other points, or shadow rays began" in console.export_text()
+    assert "by itself. How points and ways are spread one pixel does not show." in page_html(mine, reference)
     same = page_html(reference, lamp_record())
     assert "Both come to the same colour in the same way." in same
 
@@ -214,6 +215,18 @@ def test_a_lamp_that_all_or_none_see_is_held_against_the_reference() -> None:
         assert (found.place, found.function) == (("eye", "lamp2"), "sample_sphere")
 
 
+def test_an_edge_that_one_of_two_right_starts_gets_past_is_no_difference() -> None:
+    mine, reference = lamp_record(lit=False), lamp_record()
+    mine.ray.lamps[0].rays[0].origin = [0, 0, 1.002]
+    assert find_divergence(mine, reference) is None
+    hit = mine.ray.lamps[0].rays[0].hit
+    assert hit is not None
+    hit.distance = 6.99  # of the lamp itself
+    found = find_divergence(mine, reference)
+    assert found is not None
+    assert found.function == "shadow_ray"
+
+
 def test_along_a_path_other_points_bring_another_colour() -> None:
     mine, reference = lamp_record(), lamp_record()
     for record in (mine, reference):
@@ -222,10 +235,37 @@ def test_along_a_path_other_points_bring_another_colour() -> None:
     mine.ray.color = mine.color = [0.1, 0.1, 0.1]
     found = find_divergence(mine, reference)
     assert found is not None
-    assert (found.place, found.function) == (("eye", "color"), "trace")
+    assert (found.place, found.function) == (("eye", "color"), "path_light")
     _at_another_point(mine)
     mine.ray.local = None
     assert find_divergence(mine, reference) is None
+
+
+def _on_a_path(record: Record, direction: Triple, weight: float = 0.5, pdf: float = 0.2) -> None:
+    """It goes on from the first hit, and meets nothing."""
+    record.step, record.ray.local, record.ray.direct = 13, None, None
+    scatter = Scattered(direction=direction, weight=[weight] * 3, pdf=pdf, specular=False)
+    record.ray.path = PathStep(lamps=record.ray.lamps[0].brought, scatter=scatter)
+    way = replace(record.ray, role="reflect", depth=2, direction=direction, hit=None, lamps=[], lights=[], path=None)
+    start = record.ray.lamps[0].rays[0].origin
+    record.ray.bounces = [replace(way, origin=start, color=[0, 0, 0], bounces=[])]
+
+
+def test_a_path_may_go_another_way_and_a_wrong_weight_is_found() -> None:
+    reference = lamp_record()
+    _on_a_path(reference, [0, 0.6, 0.8])
+    along: Triple = [0, 0.6, 0.8]
+    elsewhere: Triple = [0.6, 0, 0.8]
+    for direction, numbers, function in (
+        (along, (0.5, 0.2), None),
+        (elsewhere, (0.5, 0.2), None),
+        (along, (0.7, 0.2), "scatter_diffuse"),
+        (along, (0.5, 0.63), "scatter_diffuse"),
+    ):
+        mine = lamp_record()
+        _on_a_path(mine, direction, *numbers)
+        found = find_divergence(mine, reference)
+        assert (None if found is None else found.function) == function
 
 
 def test_a_wrong_pdf_at_another_point_is_found() -> None:

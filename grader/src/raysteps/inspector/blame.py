@@ -18,7 +18,7 @@ from raysteps.inspector.records import (
 
 _FARTHEST_START = 0.011  # what the contracts allow is 0.01
 _LEAST_START = 2e-4  # the contracts name 0.001
-_SAME_START = 1e-4
+SAME_START = 1e-4
 _SEARCH = {
     "none": ("closest_hit", "closest_hit"),
     "boxes": ("closest_hit", "closest_hit"),
@@ -100,7 +100,7 @@ def blame_shadow(mine: Ray, reference: Ray, hit: Hit, accel: Accel, *, lit: bool
     if problem:
         return "shadow_ray", problem
     apart = length(minus(mine.origin, reference.origin))
-    if apart > _SAME_START and mine.missed is None:
+    if apart > SAME_START and mine.missed is None:
         return "shadow_ray", f"it begins {apart:.2g} away from the reference's, and that decides whether it gets past"
     if lit:  # the reference's is blocked
         if mine.hit is not None:

@@ -13,6 +13,7 @@ from raysteps.inspector.records import (
     Difference,
     Pair,
     as_float,
+    brief,
     coarser,
     diverged,
     dot,
@@ -28,6 +29,7 @@ from raysteps.inspector.records import (
     same_number,
     same_point,
     same_samples,
+    same_way,
     shadow_words,
     told,
 )
@@ -199,6 +201,24 @@ def _bounces(pair: Pair, way: Way) -> Iterator[Difference]:
         yield pair.at(way, f"yours sends a {word} ray (depth {depth}), the reference sends none", "trace")
 
 
+_PATHS = {13: "path_light", 14: "path_light", 15: "mis_path_light"}  # who follows a path
+
+
+def _scattering(pair: Pair) -> Iterator[Difference]:
+    """What a path weighs behind a hit from which both go on in one direction."""
+    paths = pair.mine.path, pair.reference.path
+    own, theirs = (None if path is None else path.scatter for path in paths)
+    if own is None or theirs is None or not same_direction(own.direction, theirs.direction):
+        return
+    function = "scatter_diffuse" if pair.step == min(_PATHS) else ""
+    if not same_number(own.pdf, theirs.pdf, 100 * CLOSE):
+        words = f"the direction of the path has pdf {brief(own.pdf)}, the reference's {brief(theirs.pdf)}"
+        yield pair.at("color", words, function)
+    if not same_color(own.weight, theirs.weight, 100 * CLOSE):
+        words = f"the direction of the path has weight {point(own.weight)}, the reference's {point(theirs.weight)}"
+        yield pair.at("color", words, function)
+
+
 def along(pair: Pair) -> Iterator[Difference]:
     """From the search of one ray to its colour, in the order of computing."""
     mine, reference = pair.mine, pair.reference
@@ -222,12 +242,15 @@ def along(pair: Pair) -> Iterator[Difference]:
     if diverged(mine.transmitted, reference.transmitted, through, 10 * CLOSE):
         words = f"what shines through is {told(mine.transmitted)}"
         yield pair.at("transmitted", f"{words}, the reference's {told(reference.transmitted)}", "transmitted_light")
-    yield from _bounces(pair, "reflect")
+    if same_way(mine, reference):
+        yield from _scattering(pair)
+        yield from _bounces(pair, "reflect")
     whole = expected.added(mine.local, expected.brought(mine, "reflect")) if pair.step >= 5 else None
     may_differ = expected.is_unseen(mine) or (mine.path is not None and not same_samples(mine, reference))
     if not may_differ and diverged(mine.color, reference.color, whole, 10 * CLOSE):
         words = f"the colour of the ray is {told(mine.color)}, the reference's {told(reference.color)}"
-        yield pair.at("color", words, "trace" if pair.step >= 5 else "")
+        follows = "trace" if pair.step >= 5 else ""
+        yield pair.at("color", words, follows if mine.path is None else _PATHS.get(pair.step, ""))
 
 
 def ray_differences(mine: Record, reference: Record) -> Iterator[Difference]:

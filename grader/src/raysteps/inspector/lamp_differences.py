@@ -3,8 +3,8 @@ against what its contract says of the point that it took."""
 
 from collections.abc import Iterator
 
-from raysteps.inspector.blame import blame_shadow, sampled
-from raysteps.inspector.model import Hit, LampSample
+from raysteps.inspector.blame import SAME_START, blame_shadow, sampled, start_problem
+from raysteps.inspector.model import Hit, LampSample, Ray
 from raysteps.inspector.records import (
     CLOSE,
     Difference,
@@ -102,6 +102,20 @@ def _sample(pair: Pair, own: LampSample, theirs: LampSample) -> Iterator[tuple[s
         yield f"{words} at {point(theirs.position)}", function, _why_pdf(own)
 
 
+def _meets(ray: Ray, size: float) -> bool:
+    """Something before the lamp."""
+    return ray.hit is not None and as_float(ray.hit.distance) < size - 0.02
+
+
+def _is_at_an_edge(pair: Pair, ray: Ray, other: Ray, size: float) -> bool:
+    """Whether two rays that begin where they may, but apart, pass an edge on both sides; one of the lamp is none."""
+    is_apart = length(minus(ray.origin, other.origin)) > SAME_START and ray.missed is None
+    problem = start_problem(ray, pair.hits[0], 1)
+    if "itself" in problem and not _meets(ray, 0.04):  # it got off the surface
+        problem = ""
+    return is_apart and _meets(ray, size) != _meets(other, size) and not problem
+
+
 def _shadow(pair: Pair, own: LampSample, theirs: LampSample) -> Iterator[tuple[str, str, str]]:
     if own.is_dark:  # its point may lie below the horizon
         return
@@ -115,6 +129,8 @@ def _shadow(pair: Pair, own: LampSample, theirs: LampSample) -> Iterator[tuple[s
     if size > 0.1 and not same_direction(ray.direction, [part / size for part in way], 10 * pair.close + 0.01 / size):
         yield f"its shadow ray goes towards {point(ray.direction)}, not to the sample", "shadow_ray", ""
     elif theirs.rays and own.lit != theirs.lit and same_point(own.position, theirs.position, CLOSE, 1.0):
+        if own.lit != _meets(ray, size) and _is_at_an_edge(pair, ray, theirs.rays[-1], size):
+            return
         function, why = blame_shadow(ray, theirs.rays[-1], pair.hits[0], pair.accel, lit=own.lit)
         verdicts = ["free" if lamp.lit else shadow_words(lamp) for lamp in (own, theirs)]
         yield f"its shadow ray is {verdicts[0]}, the reference's is {verdicts[1]}", function, why

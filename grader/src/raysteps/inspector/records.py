@@ -168,25 +168,40 @@ def same_meeting(one: Hit | None, other: Hit | None, close: float) -> bool:
     return alike and same_number(one.distance, other.distance, close, 1e-5)
 
 
+def same_way(mine: Ray, reference: Ray) -> bool:
+    """Whether a path goes on as the other does; so do rays that are no path's."""
+    if mine.path is None or reference.path is None:
+        return True
+    pairs = zip(mine.bounces, reference.bounces, strict=False)
+    ways = all(same_direction(own.direction, theirs.direction) for own, theirs in pairs)
+    return ways and len(mine.bounces) == len(reference.bounces)
+
+
 def same_samples(mine: Ray, reference: Ray) -> bool:
-    """Whether the samples of lamps at these hits, and at those of the rays that follow, took the same points. Where no
-    density is above 0 the point means nothing."""
+    """Whether the samples of lamps at these hits, and at those of the rays that follow, took the same points and came
+    from there, and a path goes the same way. Where no density is above 0 the point means nothing."""
     reach = length(reference.hit.position) if reference.hit is not None else 0.0
     pairs = zip(mine.lamps, reference.lamps, strict=False)
-    return all(
-        same_point(own.position, theirs.position, 10 * CLOSE, reach)
-        for own, theirs in pairs
-        if as_float(own.pdf) > 0 and as_float(theirs.pdf) > 0
-    ) and all(same_samples(*bounces) for bounces in zip(mine.bounces, reference.bounces, strict=False))
+    return (
+        same_way(mine, reference)
+        and all(
+            own.lit == theirs.lit and same_point(own.position, theirs.position, 10 * CLOSE, reach)
+            for own, theirs in pairs
+            if as_float(own.pdf) > 0 and as_float(theirs.pdf) > 0
+        )
+        and all(same_samples(*bounces) for bounces in zip(mine.bounces, reference.bounces, strict=False))
+    )
 
 
 def agreement(mine: Record, reference: Record) -> str:
     """What is said of two that do not part."""
     if same_samples(mine.ray, reference.ray):
         return "both come to the same colour in the same way"
+    others = "the samples of lamps took other points, or shadow rays began elsewhere"
+    others += ", or the path went another way" if mine.ray.path is not None else ""
     return (
-        "the samples of lamps took other points, as they may; nothing is wrong with any of them by itself. "
-        "How points are spread one pixel does not show"
+        f"{others}, as they may; nothing is wrong with any of that by itself. "
+        "How points and ways are spread one pixel does not show"
     )
 
 
