@@ -50,6 +50,12 @@ def test_a_poor_tree_of_step_09_spares_something(asked: int, wasteful: bool) -> 
     assert isinstance(problem, TooMuchWork) is wasteful
 
 
+def test_without_surfaces_nothing_is_to_be_spared() -> None:
+    """As where a wrong case is made smaller and smaller."""
+    inputs: Inputs = {"surfaces": Surfaces(()), "tree": WhoseTree(own=True)}
+    assert work_problem(inputs, [0, 0], [0, 0]) == ""
+
+
 def test_a_crash_on_purpose_is_no_way_out() -> None:
     search = functions_of("06")["closest_hit_in_octree"]
     judged = _judged(_MUCH, _MUCH) + _judged("not asked", "not asked", "not asked", asked=False)

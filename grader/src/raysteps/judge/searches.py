@@ -201,7 +201,7 @@ def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int])
     surfaces, tree = inputs["surfaces"], inputs["tree"]
     assert isinstance(surfaces, Surfaces)
     assert isinstance(tree, WhoseTree)
-    if len(actual) < 2:
+    if len(actual) < 2 or not surfaces.surfaces:
         return ""
     share = sum(actual) / (len(surfaces.surfaces) * len(actual))
     if share > MOST_ASKED:
