@@ -48,7 +48,7 @@ void ask_emission_weight(TokenReader& words, TokenWriter& answer) {
 
 void ask_mis_path_light(TokenReader& words, TokenWriter& answer) {
     const Ray ray = read_ray(words);
-    const Script script = read_mis_script(words);
+    const PathScript script = read_mis_script(words);
     answer_path(script, read_estimate_plan(words), answer,
                 [&](ScriptedPath& tracer, RandomStream& random) { return mis_path_light(tracer, ray, random); });
 }

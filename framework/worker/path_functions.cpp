@@ -33,7 +33,7 @@ void ask_survival_probability(TokenReader& words, TokenWriter& answer) {
 
 void ask_path_light(TokenReader& words, TokenWriter& answer) {
     const Ray ray = read_ray(words);
-    const Script script = read_script(words);
+    const PathScript script = read_path_script(words);
     answer_path(script, read_estimate_plan(words), answer,
                 [&](ScriptedPath& tracer, RandomStream& random) { return path_light(tracer, ray, random); });
 }

@@ -15,8 +15,8 @@ constexpr std::size_t k_endless = 300;  // rays, then there is nothing more to m
 constexpr float k_beside = 0.02F;       // of a place that is meant
 
 /// Distance, normal, emission, front face.
-ScriptedHit read_surface(TokenReader& words) {
-    ScriptedHit hit;
+ScriptedPathHit read_surface(TokenReader& words) {
+    ScriptedPathHit hit;
     hit.distance = words.number();
     hit.normal = words.vector();
     hit.emission = words.vector();
@@ -24,8 +24,8 @@ ScriptedHit read_surface(TokenReader& words) {
     return hit;
 }
 
-ScriptedHit read_path_hit(TokenReader& words) {
-    ScriptedHit hit = read_surface(words);
+ScriptedPathHit read_path_hit(TokenReader& words) {
+    ScriptedPathHit hit = read_surface(words);
     hit.light = words.vector();
     if (words.flag()) {
         hit.sample = read_scatter(words);
@@ -33,8 +33,8 @@ ScriptedHit read_path_hit(TokenReader& words) {
     return hit;
 }
 
-ScriptedHit read_mis_hit(TokenReader& words) {
-    ScriptedHit hit = read_surface(words);
+ScriptedPathHit read_mis_hit(TokenReader& words) {
+    ScriptedPathHit hit = read_surface(words);
     hit.light_pdf = words.number();
     hit.samples = read_samples(words);
     if (words.flag()) {
@@ -53,8 +53,8 @@ ScriptedHit read_mis_hit(TokenReader& words) {
 }
 
 template <typename ReadHit>
-Script read_hits(TokenReader& words, const ReadHit& read_hit) {
-    Script script;
+PathScript read_hits(TokenReader& words, const ReadHit& read_hit) {
+    PathScript script;
     script.background = words.vector();
     script.goes_on = words.flag();
     for (int left = words.count(); left > 0; --left) {
@@ -99,9 +99,9 @@ std::vector<DirectSample> read_samples(TokenReader& words) {
     return samples;
 }
 
-Script read_script(TokenReader& words) { return read_hits(words, read_path_hit); }
+PathScript read_path_script(TokenReader& words) { return read_hits(words, read_path_hit); }
 
-Script read_mis_script(TokenReader& words) { return read_hits(words, read_mis_hit); }
+PathScript read_mis_script(TokenReader& words) { return read_hits(words, read_mis_hit); }
 
 std::optional<HitRecord> ScriptedPath::closest_hit(const Ray& ray) const {
     const std::size_t number = cast_.size();
@@ -125,7 +125,7 @@ std::optional<HitRecord> ScriptedPath::closest_hit(const Ray& ray) const {
     if (script_.hits.empty() || number >= k_endless || (number >= script_.hits.size() && !script_.goes_on)) {
         return std::nullopt;
     }
-    const ScriptedHit& scripted = script_.hits[std::min(number, script_.hits.size() - 1)];
+    const ScriptedPathHit& scripted = script_.hits[std::min(number, script_.hits.size() - 1)];
     hit.position = ray.origin + scripted.distance * ray.direction;
     hit.normal = glm::dot(scripted.normal, ray.direction) <= 0.0F ? scripted.normal : -scripted.normal;
     hit.distance = scripted.distance;
@@ -137,7 +137,7 @@ std::optional<HitRecord> ScriptedPath::closest_hit(const Ray& ray) const {
 
 /// Draws those of a plate's lamps.
 std::vector<DirectSample> ScriptedPath::samples_at(const HitRecord& hit) {
-    const ScriptedHit& scripted = at(hit);
+    const ScriptedPathHit& scripted = at(hit);
     std::vector<DirectSample> samples = scripted.samples;
     for (const ScriptedLamp& lamp : scripted.lamps) {
         const float cosine = lamp.low + (lamp.high - lamp.low) * random_.next();
@@ -173,7 +173,7 @@ float ScriptedPath::light_pdf(const glm::vec3& from, const HitRecord& hit) const
 
 /// The direction is turned to the side of the normal. Who asks twice gets another one.
 std::optional<ScatterSample> ScriptedPath::scatter(const HitRecord& hit) {
-    const ScriptedHit& scripted = at(hit);
+    const ScriptedPathHit& scripted = at(hit);
     std::optional<ScatterSample> sample = scripted.sample;
     if (!sample) {
         return sample;
@@ -196,9 +196,9 @@ std::optional<ScatterSample> ScriptedPath::scatter(const HitRecord& hit) {
     return sample;
 }
 
-const ScriptedHit& ScriptedPath::at(const HitRecord& hit) const {
-    static const ScriptedHit nothing;
-    const auto found = std::ranges::find(script_.hits, hit.distance, &ScriptedHit::distance);
+const ScriptedPathHit& ScriptedPath::at(const HitRecord& hit) const {
+    static const ScriptedPathHit nothing;
+    const auto found = std::ranges::find(script_.hits, hit.distance, &ScriptedPathHit::distance);
     return found == script_.hits.end() ? nothing : *found;
 }
 

@@ -21,7 +21,7 @@ struct ScriptedLamp {
 };
 
 /// What a path finds where its next ray goes.
-struct ScriptedHit {
+struct ScriptedPathHit {
     float distance = 1.0F;
     glm::vec3 normal{0.0F};
     Color emission{0.0F};
@@ -36,10 +36,10 @@ struct ScriptedHit {
     std::vector<ScriptedLamp> lamps;
 };
 
-struct Script {
+struct PathScript {
     Color background{0.0F};
     bool goes_on = false;  ///< the last hit comes again and again
-    std::vector<ScriptedHit> hits;
+    std::vector<ScriptedPathHit> hits;
 };
 
 [[nodiscard]] ScatterSample read_scatter(TokenReader& words);  ///< direction, weight, specular
@@ -47,14 +47,15 @@ struct Script {
 [[nodiscard]] std::vector<DirectSample> read_samples(TokenReader& words);
 
 /// Of step 13, or with what step 15 asks besides.
-[[nodiscard]] Script read_script(TokenReader& words);
-[[nodiscard]] Script read_mis_script(TokenReader& words);
+[[nodiscard]] PathScript read_path_script(TokenReader& words);
+[[nodiscard]] PathScript read_mis_script(TokenReader& words);
 
 /// Answers from a script, and knows a hit by its distance, which differs from hit to hit. Its own random numbers are
 /// those of plates.
 class ScriptedPath final : public MisTracer {
 public:
-    explicit ScriptedPath(const Script& script, const RandomStream& random = {}) : script_(script), random_(random) {}
+    explicit ScriptedPath(const PathScript& script, const RandomStream& random = {})
+        : script_(script), random_(random) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
     [[nodiscard]] Color light_sample(const HitRecord& hit) override;
@@ -67,10 +68,10 @@ public:
     [[nodiscard]] int cost() const { return static_cast<int>(cast_.size()) + asked_; }
 
 private:
-    [[nodiscard]] const ScriptedHit& at(const HitRecord& hit) const;
+    [[nodiscard]] const ScriptedPathHit& at(const HitRecord& hit) const;
     [[nodiscard]] std::vector<DirectSample> samples_at(const HitRecord& hit);
 
-    const Script& script_;
+    const PathScript& script_;
     RandomStream random_;
     mutable std::vector<Ray> cast_;
     mutable std::vector<HitRecord> met_;  ///< of the script
@@ -81,7 +82,7 @@ private:
 /// Asked once, with all rays that were cast; or for estimates, where the plan wants some. light(tracer, random) asks
 /// the step.
 template <typename Light>
-void answer_path(const Script& script, const EstimatePlan& plan, TokenWriter& answer, const Light& light) {
+void answer_path(const PathScript& script, const EstimatePlan& plan, TokenWriter& answer, const Light& light) {
     answer.word(plan.most > 0 ? "often" : "once");
     if (plan.most > 0) {
         write_estimates(plan, answer, [&](RandomStream& random) {
