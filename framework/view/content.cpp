@@ -34,7 +34,7 @@ Image exposed(const Grid<Color>& colors, int step, float stops) {
     return image;
 }
 
-Image content(const Frame& frame, const Settings& settings, const std::string& status) {
+Image content(const RenderedFrame& frame, const Settings& settings, const std::string& status) {
     if (settings.map) {
         return cost_heatmap(frame.costs, *settings.map, std::nullopt);
     }

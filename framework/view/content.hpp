@@ -11,7 +11,7 @@ namespace raysteps {
 [[nodiscard]] Image exposed(const Grid<Color>& colors, int step, float stops);
 
 /// The picture over its status bar, or a work map over its legend. status: a line such as "step 8 octree 45%".
-[[nodiscard]] Image content(const Frame& frame, const Settings& settings, const std::string& status);
+[[nodiscard]] Image content(const RenderedFrame& frame, const Settings& settings, const std::string& status);
 
 /// The picture alone.
 [[nodiscard]] Image without_status_bar(const Image& content, const Camera& camera);

@@ -10,8 +10,8 @@ using namespace raysteps;
 
 namespace {
 
-Frame frame_of(const Color& color) {
-    Frame frame{Grid<Color>(90, 20), CostGrid(90, 20)};
+RenderedFrame frame_of(const Color& color) {
+    RenderedFrame frame{Grid<Color>(90, 20), CostGrid(90, 20)};
     for (int y = 0; y < 20; ++y) {
         for (int x = 0; x < 90; ++x) {
             frame.colors.at(x, y) = color;
@@ -50,7 +50,7 @@ TEST_CASE("The slider ends at four stops to either side", "[view]") {
 }
 
 TEST_CASE("Below the picture lies a bar that tells step, progress and exposure", "[view]") {
-    const Frame frame = frame_of(k_white);
+    const RenderedFrame frame = frame_of(k_white);
     Settings settings = settings_of(8);
     const Image shown = content(frame, settings, "step 8");
     REQUIRE(shown.height() == content_height(settings.camera));
@@ -65,7 +65,7 @@ TEST_CASE("Below the picture lies a bar that tells step, progress and exposure",
 }
 
 TEST_CASE("A work map takes the place of the picture", "[view]") {
-    const Frame frame = frame_of(k_white);
+    const RenderedFrame frame = frame_of(k_white);
     Settings settings = settings_of(8);
     settings.map = CostKind::boxes;
     CHECK(content(frame, settings, "") == cost_heatmap(frame.costs, CostKind::boxes, std::nullopt));

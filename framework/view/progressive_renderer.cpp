@@ -23,7 +23,7 @@ struct TracedPixel {
     PixelCost cost;
 };
 
-void fill_block(Frame& frame, const TracedPixel& pixel, int side) {
+void fill_block(RenderedFrame& frame, const TracedPixel& pixel, int side) {
     for (int y = pixel.y; y < std::min(pixel.y + side, frame.colors.height()); ++y) {
         for (int x = pixel.x; x < std::min(pixel.x + side, frame.colors.width()); ++x) {
             frame.colors.at(x, y) = pixel.color;
@@ -62,12 +62,12 @@ RenderStatus ProgressiveRenderer::status() const {
     return status_;
 }
 
-void ProgressiveRenderer::copy_colors(Frame& frame) const {
+void ProgressiveRenderer::copy_colors(RenderedFrame& frame) const {
     const std::scoped_lock lock(mutex_);
     frame.colors = frame_.colors;
 }
 
-void ProgressiveRenderer::copy_costs(Frame& frame) const {
+void ProgressiveRenderer::copy_costs(RenderedFrame& frame) const {
     const std::scoped_lock lock(mutex_);
     frame.costs = frame_.costs;
 }

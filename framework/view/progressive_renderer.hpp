@@ -19,7 +19,7 @@
 namespace raysteps {
 
 /// A pixel that was not traced yet has the values of a neighbour that was.
-struct Frame {
+struct RenderedFrame {
     Grid<Color> colors;  ///< linear, so that the exposure can change afterwards
     CostGrid costs;
 };
@@ -66,8 +66,8 @@ public:
     [[nodiscard]] RenderStatus status() const;
 
     /// Copies what there is: colours, or costs. Until the first pixels come that is the picture before.
-    void copy_colors(Frame& frame) const;
-    void copy_costs(Frame& frame) const;
+    void copy_colors(RenderedFrame& frame) const;
+    void copy_costs(RenderedFrame& frame) const;
 
     /// Ends the work. False: it did not end in time, as a step may hang, and the program can only be left at once.
     [[nodiscard]] bool stop(std::chrono::milliseconds timeout);
@@ -88,7 +88,7 @@ private:
     mutable std::mutex mutex_;  ///< guards what follows up to the atomics
     std::condition_variable changed_;
     std::optional<RenderRequest> wanted_;
-    Frame frame_;
+    RenderedFrame frame_;
     RenderStatus status_;
     std::size_t traced_ = 0;
     std::size_t wanted_pixels_ = 0;  ///< each once for every sample

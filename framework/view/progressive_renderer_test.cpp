@@ -73,7 +73,7 @@ TEST_CASE("The finished picture is raytrace's, for any number of threads", "[vie
             progressive.start(shot_of(scene, step));
             const RenderStatus status = finish(progressive);
             CHECK(status.share == 1.0);
-            Frame frame;
+            RenderedFrame frame;
             progressive.copy_colors(frame);
             CHECK(exposed(frame.colors, step, 0.0F) == raytraced(scene, step));
         }
@@ -86,7 +86,7 @@ TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
     ProgressiveRenderer progressive(scene, accelerators, 2);
     progressive.start(shot_of(scene, 8));
     static_cast<void>(finish(progressive));
-    Frame frame;
+    RenderedFrame frame;
     progressive.copy_costs(frame);
     RenderOptions options;
     options.step.step = 8;
@@ -101,12 +101,12 @@ TEST_CASE("What the finished picture cost is what raytrace counts", "[view]") {
 TEST_CASE("In part two the picture is the mean of many samples", "[view]") {
     const Scene scene = balls_on_floor();
     AcceleratorCache accelerators(scene);
-    Frame frame;
+    RenderedFrame frame;
     for (const int threads : {1, 3}) {
         ProgressiveRenderer progressive(scene, accelerators, threads);
         progressive.start(shot_of(scene, 10));
         CHECK(finish(progressive).share == 1.0);
-        Frame again;
+        RenderedFrame again;
         progressive.copy_colors(again);
         CHECK((threads == 1 || again.colors == frame.colors));
         frame = std::move(again);
@@ -140,7 +140,7 @@ TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {
     }
     progressive.start(shot_of(scene, 4));
     static_cast<void>(finish(progressive));
-    Frame frame;
+    RenderedFrame frame;
     progressive.copy_colors(frame);
     CHECK(exposed(frame.colors, 4, 0.0F) == raytraced(scene, 4));
 }

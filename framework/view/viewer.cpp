@@ -199,7 +199,7 @@ private:
     AsyncInspector inspector_;
     Controls controls_;
     Window window_;
-    Frame frame_;
+    RenderedFrame frame_;
     std::uint64_t shown_ = 0;     ///< version of the picture
     Clock::time_point earliest_;  ///< of the next look at a large picture, so that hands find time between two
     std::string problem_;
