@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
+from raysteps.common.text import count
 from raysteps.judge.answers import Answer, TooMuchWork, first
 from raysteps.judge.hits import MaybeHit, found_problem, found_words, read_hit
 from raysteps.judge.protocol import Inputs, Number, ProtocolError, Ray, TokenReader, text
@@ -72,7 +73,7 @@ def read_all(tokens: TokenReader, read_one: Callable[[TokenReader], One]) -> tup
 
 def words_of(answers: Sequence[One], one_in_words: Callable[[One], str]) -> str:
     """The first two."""
-    shown = [f"{one_in_words(answer)}, {answer.asked} surfaces asked" for answer in answers[:2]]
+    shown = [f"{one_in_words(answer)}, {count(answer.asked, 'surface')} asked" for answer in answers[:2]]
     return "; ".join(shown) + ("; and more" if len(answers) > 2 else "") or "nothing"
 
 
