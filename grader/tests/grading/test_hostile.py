@@ -28,7 +28,7 @@ from raysteps.course.project import Project
 from raysteps.sandbox import users
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.sandbox.limits_only import LimitsOnly
-from raysteps.sandbox.task import Sandbox
+from raysteps.sandbox.task import Sandbox, Task
 from raysteps.toolchain import build_kit as kit_building
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -124,6 +124,8 @@ def place(own_kit: BuiltKit, temporary: Path, solved: Sources) -> Iterator[Range
 
 @pytest.fixture(scope="module")
 def before(traces: Traces, place: Range) -> set[str]:
+    """With the server that forks keepers, which stays as long as this process."""
+    LimitsOnly().run(Task(("/bin/true",)))
     return traces.now()
 
 

@@ -1,15 +1,21 @@
 """Starts a command under limits and, when it has ended, ends whatever it left behind. Run as a program of its own,
-with the bare interpreter: `python -I -S keeper.py SETTINGS COMMAND...`; it imports nothing of the kit.
+with the bare interpreter; it imports nothing of the kit:
+
+- `python -I -S keeper.py SETTINGS COMMAND...`: keeps this command.
+- `python -I -S keeper.py --fork-server SOCKET PARENT`: forks a keeper for each command that comes by the socket, as a
+  child of the process PARENT.
 
 SETTINGS is a dictionary in the form of `marshal`, in hexadecimal digits: `status` (a file descriptor for the exit
 code), `limits` (resource limits by name), `user` (a number, or None), `fences` (what to close, see lockdown.py, or
 None), `folder`, `environment`.
 
-A grade starts it many times, so it imports as little as it can: what reads JSON, or `contextlib`, takes as long to load
-as all the rest.
+A grade needs hundreds of keepers. To start Python takes ten times as long as to fork it, and what reads JSON, or
+`contextlib`, takes as long to load as all the rest.
 """
 
+import _socket  # what `socket` adds takes long to load
 import ctypes
+import fcntl
 import importlib
 import marshal
 import os
@@ -128,9 +134,8 @@ def _clear_up(child: int, user: int | None) -> None:
         time.sleep(0.001)
 
 
-def main() -> None:
-    settings = marshal.loads(bytes.fromhex(sys.argv[1]))  # noqa: S302  (of the grader's own)
-    command = sys.argv[2:]
+def keep(settings: Settings, command: list[str]) -> None:
+    """Runs the command until it ends, or whoever wants it does, and ends what it left behind."""
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)
     _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
     signal.signal(signal.SIGCHLD, lambda *_: None)  # some systems drop what is ignored before anybody waits for it
@@ -154,6 +159,84 @@ def main() -> None:
     _clear_up(child, settings["user"])
     if ended:
         os.write(settings["status"], str(code).encode())
+
+
+# The fork server, on Linux.
+
+_NUMBER_BYTES = 8
+_MOST_FILES = 253  # that can come along, as the system has it
+
+
+def _place(files: dict[int, int]) -> None:
+    """Opens each file under the number that the command knows it by, and closes it under its own."""
+    above = max([*files, *files.values()]) + 1
+    moved = {number: fcntl.fcntl(file, fcntl.F_DUPFD, above) for number, file in files.items()}
+    for file in files.values():
+        os.close(file)
+    for number, file in moved.items():
+        os.dup2(file, number)
+        os.close(file)
+
+
+def _become_a_keeper(grader: int, wanted: bytes, files: list[int]) -> None:
+    """Forks, and lets the parent end, so that the child becomes the grader's, which adopts orphans (monitor.py). The
+    child writes its number to the first of the files and keeps the command. Returns in a process that is to end."""
+    parent = os.getpid()
+    if os.fork() > 0:
+        return
+    while os.getppid() == parent:
+        os.sched_yield()
+    _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    if os.getppid() != grader:
+        return
+    os.write(files[0], os.getpid().to_bytes(_NUMBER_BYTES, "little"))
+    os.close(files[0])
+    settings, command, numbers = marshal.loads(wanted)  # noqa: S302  (of the grader's own)
+    _place(dict(zip(numbers, files[1:], strict=True)))
+    try:
+        keep(settings, command)
+    except BaseException as error:
+        os.write(2, f"{type(error).__name__}: {error}\n".encode())
+
+
+def _receive(asked: "_socket.socket", size: int) -> bytes:
+    """So many bytes, or fewer where there is an end."""
+    data = b""
+    while len(data) < size and (part := asked.recv(size - len(data))):
+        data += part
+    return data
+
+
+def fork_server(asked: "_socket.socket", grader: int) -> None:
+    """Forks a keeper for each command that comes, until the other end is closed. A command comes with a file to answer
+    by and with those that it is to have open."""
+    interrupt = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    while True:
+        head, extra, _, _ = asked.recvmsg(_NUMBER_BYTES, _socket.CMSG_SPACE(4 * _MOST_FILES))
+        head += _receive(asked, _NUMBER_BYTES - len(head)) if head else b""
+        size = int.from_bytes(head, "little")
+        wanted = _receive(asked, size)
+        if len(head) < _NUMBER_BYTES or len(wanted) < size:
+            return
+        files = memoryview(b"".join(data for _, _, data in extra)).cast("i").tolist()
+        middle = os.fork()
+        if middle == 0:
+            try:
+                asked.close()
+                signal.signal(signal.SIGINT, interrupt)
+                _become_a_keeper(grader, wanted, files)
+            finally:
+                os._exit(0)
+        for file in files:
+            os.close(file)
+        os.waitpid(middle, 0)
+
+
+def main() -> None:
+    if sys.argv[1] == "--fork-server":
+        fork_server(_socket.socket(fileno=int(sys.argv[2])), int(sys.argv[3]))
+    else:
+        keep(marshal.loads(bytes.fromhex(sys.argv[1])), sys.argv[2:])  # noqa: S302  (of the grader's own)
 
 
 if __name__ == "__main__":

@@ -3,14 +3,13 @@
 import ctypes
 import os
 import selectors
-import subprocess
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import IO, Any, Protocol, Self
 
 from raysteps.sandbox.beside import Wire
 from raysteps.sandbox.task import LimitHit, Limits
@@ -126,6 +125,20 @@ _FINISHED_SECONDS = 0.5  # for a task that nobody asks any more, to end by itsel
 _MEGABYTE = 1 << 20
 
 
+class StartedProcess(Protocol):
+    """A child of this process, as subprocess.Popen is one, with its output as pipes where there are any."""
+
+    pid: int
+    returncode: int | Any  # None until somebody has waited for it
+    stdout: IO[bytes] | None
+    stderr: IO[bytes] | None
+
+    def terminate(self) -> None: ...
+    def kill(self) -> None: ...
+    def __enter__(self) -> Self: ...
+    def __exit__(self, *_: Any) -> None: ...
+
+
 class MonitoredTask(Protocol):
     """The processes of a task, seen from outside."""
 
@@ -157,7 +170,7 @@ def _limit_reached(usage: Usage, limits: Limits) -> LimitHit:
 class _Watch:
     def __init__(
         self,
-        process: "subprocess.Popen[bytes]",
+        process: StartedProcess,
         start: float,
         limits: Limits,
         watched: MonitoredTask,
@@ -260,7 +273,7 @@ class _Watch:
 
 
 def monitor(
-    process: "subprocess.Popen[bytes]", start: float, limits: Limits, watched: MonitoredTask, wire: Wire | None = None
+    process: StartedProcess, start: float, limits: Limits, watched: MonitoredTask, wire: Wire | None = None
 ) -> MonitorReport:
     """Stays until the process has ended and everything that belongs to it was killed. Nobody else may wait for it."""
     return _Watch(process, start, limits, watched, wire)()

@@ -1,10 +1,8 @@
 """Runs tasks under the keeper: what the sandboxes without namespaces have in common."""
 
-import marshal
 import math
 import os
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -16,8 +14,17 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import join_and, printable, shorten
 from raysteps.sandbox.beside import asking, readable
+from raysteps.sandbox.keepers import start_keeper
 from raysteps.sandbox.lockdown import landlock_version, scopes_signals, syscall_filter
-from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, usage_of
+from raysteps.sandbox.monitor import (
+    MonitorReport,
+    StartedProcess,
+    Usage,
+    adopting_orphans,
+    descendants,
+    monitor,
+    usage_of,
+)
 from raysteps.sandbox.namespaces import compiler_command, hidden_folders, top_folders, visible_folders
 from raysteps.sandbox.rlimits import address_space, cpu_seconds_of_a_process, threads_of_user
 from raysteps.sandbox.task import Input, Isolation, Limits, Task, TaskResult
@@ -25,7 +32,6 @@ from raysteps.sandbox.task_dir import PathMap, TaskDir, fresh_task_dir, nameless
 from raysteps.sandbox.users import can_lend_users, lent_user
 
 _MEGABYTE = 1 << 20
-_KEEPER = Path(__file__).with_name("keeper.py")
 _GRACE_SECONDS = 1.0
 _LINUX = sys.platform == "linux"
 
@@ -33,7 +39,7 @@ _LINUX = sys.platform == "linux"
 class _Family:
     """The keeper and what it keeps."""
 
-    def __init__(self, process: "subprocess.Popen[bytes]") -> None:
+    def __init__(self, process: StartedProcess) -> None:
         self._process = process
         self._known: set[int] = set()
         self._asked_at: float | None = None
@@ -125,17 +131,11 @@ class SupervisedSandbox:
         stack.callback(os.close, status)
         stdin = nameless_file(task.stdin, stack) if wire is None else wire.stdin
         start = time.monotonic()
-        keeper = [sys.executable, "-I", "-S", str(_KEEPER), marshal.dumps(settings | {"status": status_end}).hex()]
+        stdout = None if wire is None else wire.stdout
+        files = (status_end, *inside.fds)
         try:
             process = stack.enter_context(
-                subprocess.Popen(
-                    [*keeper, *command],
-                    stdin=stdin,
-                    stdout=subprocess.PIPE if wire is None else wire.stdout,
-                    stderr=subprocess.PIPE,
-                    pass_fds=(status_end, *inside.fds),
-                    cwd="/",
-                )
+                start_keeper(settings | {"status": status_end}, command, stdin=stdin, stdout=stdout, files=files)
             )
         finally:
             os.close(status_end)
