@@ -39,6 +39,16 @@ def wait_for(what: Callable[[], object], why: str = "it took too long") -> None:
         time.sleep(0.02)
 
 
+def is_running(pid: int) -> bool:
+    """Not one that only waits for its parent to ask how it ended."""
+    try:
+        os.kill(pid, 0)
+        listed = Path("/proc/self/stat").exists()
+        return not listed or Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except (ProcessLookupError, FileNotFoundError):  # it may end in between
+        return False
+
+
 def result_of(step: Step, source: str, out: Path, *, full: bool) -> StepResult:
     """As a worker would tell it, with pictures."""
     right = "// wrong" not in source

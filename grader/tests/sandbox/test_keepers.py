@@ -4,13 +4,13 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 from sandboxes import PROGRAM, Misbehave, hostile, misbehave, processes_running
+from watch_fakes import is_running, wait_for
 
 from raysteps.sandbox import keepers
 from raysteps.sandbox.limits_only import LimitsOnly
@@ -24,18 +24,12 @@ _LONG = 60.0  # to wait for something that comes at once where nothing is wrong
 
 
 @pytest.fixture(autouse=True)
-def servers(monkeypatch: pytest.MonkeyPatch) -> keepers._Servers:
+def servers(monkeypatch: pytest.MonkeyPatch) -> Iterator[keepers._Servers]:
     """Of this test alone, where none failed yet."""
     own = keepers._Servers()
     monkeypatch.setattr(keepers, "_servers", own)
-    return own
-
-
-def _until(happened: Callable[[], bool]) -> bool:
-    end = time.monotonic() + _LONG
-    while not happened() and time.monotonic() < end:
-        time.sleep(0.01)
-    return happened()
+    yield own
+    own.end()
 
 
 def _pid(servers: keepers._Servers) -> int:
@@ -50,14 +44,13 @@ def _open_files(pid: int) -> int:
 def test_all_tasks_have_one_server_and_leave_nothing_there(misbehave: Misbehave, servers: keepers._Servers) -> None:
     misbehave(LimitsOnly(), "code", "0")
     server = _pid(servers)
-    assert _until(lambda: descendants(server) == {server})
+    wait_for(lambda: descendants(server) == {server})
     files = _open_files(server)
     for code in range(5):
         assert misbehave(LimitsOnly(), "code", str(code)).outcome.code == code
     assert _pid(servers) == server
-    assert _until(lambda: descendants(server) == {server})
+    wait_for(lambda: descendants(server) == {server})
     assert _open_files(server) == files
-    servers.end()
 
 
 def _is_right(program: Path, number: int) -> bool:
@@ -72,7 +65,6 @@ def _is_right(program: Path, number: int) -> bool:
 def test_tasks_at_the_same_time_get_their_own_files(hostile: Path, servers: keepers._Servers) -> None:
     with ThreadPoolExecutor(8) as pool:
         assert all(pool.map(lambda number: _is_right(hostile, number), range(40)))
-    servers.end()
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
@@ -84,7 +76,6 @@ def test_a_server_that_fails_costs_no_task(
         if servers._server is not None:
             os.kill(_pid(servers), number)
         assert misbehave(LimitsOnly(), "code", str(code)).outcome.code == code
-    servers.end()
 
 
 def test_a_server_that_dies_while_many_wait_costs_no_task(hostile: Path, servers: keepers._Servers) -> None:
@@ -98,18 +89,13 @@ def test_a_server_that_dies_while_many_wait_costs_no_task(hostile: Path, servers
                 killed.add(server)
         assert all(one.result() for one in found)
     assert killed
-    servers.end()
 
 
-def test_without_any_server_a_task_runs_all_the_same(
-    misbehave: Misbehave, servers: keepers._Servers, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(keepers, "_KEEPER", [sys.executable, "-c", ""])
-    assert servers.fork({}, ["/bin/true"], {}) is None
-    monkeypatch.undo()
-    for _ in range(keepers._MOST_FAILURES):
-        servers._forget(None)
-    monkeypatch.setattr(keepers, "_servers", servers)
+def test_without_any_server_a_task_runs_all_the_same(misbehave: Misbehave, servers: keepers._Servers) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(keepers, "_KEEPER", [sys.executable, "-c", ""])
+        for _ in range(keepers._MOST_FAILURES):
+            assert servers.fork({}, ["/bin/true"], {}) is None
     assert misbehave(LimitsOnly(), "code", "4").outcome.code == 4
     assert servers._server is None
 
@@ -118,7 +104,6 @@ def test_a_long_command_arrives(hostile: Path, servers: keepers._Servers) -> Non
     words = ["x" * 100_000] * 10
     ran = LimitsOnly().run(Task((Input(hostile), "code", "3", *words)))
     assert ran.outcome.code == 3
-    servers.end()
 
 
 def test_a_process_that_was_forked_has_a_server_of_its_own(misbehave: Misbehave, servers: keepers._Servers) -> None:
@@ -136,7 +121,6 @@ def test_a_process_that_was_forked_has_a_server_of_its_own(misbehave: Misbehave,
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 5
     assert misbehave(LimitsOnly(), "code", "6").outcome.code == 6
     assert _pid(servers) == before
-    servers.end()
 
 
 def test_a_fork_is_told_to_the_servers() -> None:
@@ -170,7 +154,7 @@ def test_everything_ends_with_the_grader(hostile: Path, number: signal.Signals) 
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # where the tests run in the background
     ) as grader:
         try:
-            assert _until(lambda: bool(processes_running(name)))
+            wait_for(lambda: bool(processes_running(name)))
             started = descendants(grader.pid) - {grader.pid}
             assert len(started) >= 3  # the server, a keeper, and what it keeps
             if number == signal.SIGINT:
@@ -180,12 +164,5 @@ def test_everything_ends_with_the_grader(hostile: Path, number: signal.Signals) 
             grader.wait(_LONG)
         finally:
             grader.kill()
-    assert _until(lambda: not any(_lives(pid) for pid in started))
-    assert _until(lambda: not processes_running(name))
-
-
-def _lives(pid: int) -> bool:
-    try:
-        return Path(f"/proc/{pid}/stat").read_bytes().rpartition(b") ")[2][:1] not in (b"Z", b"X")
-    except OSError:
-        return False
+    wait_for(lambda: not any(map(is_running, started)))
+    wait_for(lambda: not processes_running(name))

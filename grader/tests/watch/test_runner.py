@@ -1,6 +1,5 @@
 """Jobs in processes of their own: stopped, crashed, and cleared up after."""
 
-import os
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,7 +7,7 @@ from queue import Queue
 
 import pytest
 from course_fakes import small_project, write_own
-from watch_fakes import WORKER, wait_for
+from watch_fakes import WORKER, is_running, wait_for
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -48,15 +47,6 @@ def _until_ended(events: "Queue[Event]", run: int) -> tuple[list[Event], WorkerE
             told.append(event)
 
 
-def _runs(pid: int) -> bool:
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    stat = Path(f"/proc/{pid}/stat")
-    return not stat.exists() or stat.read_text().rsplit(")", 1)[1].split()[0] != "Z"
-
-
 def test_a_job_tells_and_ends(runner: Runner, course: Project, events: "Queue[Event]", steps: list[Step]) -> None:
     write_own(course, steps[0], "// wrong")
     run = runner.start("look", steps[0])
@@ -78,13 +68,13 @@ def test_a_new_job_stops_the_old_one_with_its_programs(
     log = tmp_path / "log.txt"
     wait_for(lambda: log.is_file() and log.read_text())
     program, folder = log.read_text().split()
-    assert _runs(int(program))
+    assert is_running(int(program))
     write_own(course, steps[0], "int a;")
     run = runner.start("look", steps[0])
     told, _ = _until_ended(events, run)
     assert len(told) == 2
     assert run > old
-    wait_for(lambda: not _runs(int(program)))
+    wait_for(lambda: not is_running(int(program)))
     assert not Path(folder).exists()
 
 
@@ -114,5 +104,5 @@ def test_nothing_is_left_behind(course: Project, events: "Queue[Event]", steps: 
     log = tmp_path / "log.txt"
     wait_for(lambda: log.is_file() and log.read_text())
     runner.close()
-    wait_for(lambda: not _runs(int(log.read_text().split()[0])))
+    wait_for(lambda: not is_running(int(log.read_text().split()[0])))
     assert list((tmp_path / "scratch").iterdir()) == []

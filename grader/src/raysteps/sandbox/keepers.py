@@ -18,7 +18,7 @@ from raysteps.sandbox.beside import readable
 from raysteps.sandbox.monitor import StartedProcess
 
 _KEEPER = [sys.executable, "-I", "-S", str(Path(__file__).with_name("keeper.py"))]
-_NUMBER_BYTES = 8
+_NUMBER_BYTES = 8  # as keeper.py has it, which is no part of the package
 _PATIENCE = 20.0  # seconds, for a server that answers in thousandths of one
 _MOST_FAILURES = 3
 
