@@ -1,5 +1,7 @@
 """The command `check`: one report of all steps, whatever was checked last."""
 
+import subprocess
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,7 +12,7 @@ from course_fakes import checked, small_project, write_own
 
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
-from raysteps.progress import check
+from raysteps.progress import check, own_check
 from raysteps.report.attempts import read_attempts
 from raysteps.report.student import REPORT
 from raysteps.results.model import Results
@@ -36,7 +38,8 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
         return Results.of("steps", [checked(step, "passed", 6.5).steps[0] for step in chosen], kit=kit.fingerprint)
 
     monkeypatch.setattr(check, "build_kit", lambda *_: kit)
-    monkeypatch.setattr(check, "_look_through", look_through)
+    monkeypatch.setattr(check, "_compiled_ahead", lambda *_: {})
+    monkeypatch.setattr(own_check, "_look_through", look_through)
     return project
 
 
@@ -80,7 +83,7 @@ def test_what_was_found_before_outlives_a_check_that_fails(course: Project, monk
     def fail(*_: Any, **__: Any) -> Results:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(check, "_look_through", fail)
+    monkeypatch.setattr(own_check, "_look_through", fail)
     with pytest.raises(KeyboardInterrupt):
         _check(course, 2)
     assert [result.id[:2] for result in read_results(course.build / "check" / "results.json").steps] == ["01"]
@@ -96,6 +99,7 @@ def test_what_is_found_is_there_before_its_mistakes_have_names(
         kit: Any,
         _submission: Any,
         chosen: Sequence[Step],
+        _ahead: Any,
         _out: Path,
         _say: Any,
         tell: Callable[[Results], None],
@@ -104,10 +108,10 @@ def test_what_is_found_is_there_before_its_mistakes_have_names(
         tell(Results.of("steps", [checked(step, "partial", 3).steps[0] for step in chosen], kit=kit.fingerprint))
         raise KeyboardInterrupt
 
-    def tell(found: check.CheckResult) -> None:
+    def tell(found: own_check.CheckResult) -> None:
         told.append(found.page == out / REPORT and REPORT in {path.name for path in out.iterdir()})
 
-    monkeypatch.setattr(check, "_look_through", find_and_learn)
+    monkeypatch.setattr(own_check, "_look_through", find_and_learn)
     with pytest.raises(KeyboardInterrupt):
         check.check_steps(course, read_steps(course)[:1], lambda _: None, tell)
     assert told == [True]
@@ -127,3 +131,10 @@ def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: P
     assert _page(course).count("Changed since it was checked") == 1
     _check(course, 1)
     assert "Changed since it was checked" not in _page(course)
+
+
+def test_the_compiler_waits_for_nothing_that_grades() -> None:
+    """The command is imported before the compiler is started, what it compares pictures with meanwhile."""
+    script = "import sys, raysteps.cli.check; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-P", "-c", script], capture_output=True, text=True, check=True)
+    assert {"numpy", "jinja2", "raysteps.grading.step"}.isdisjoint(done.stdout.split())

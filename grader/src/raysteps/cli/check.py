@@ -1,16 +1,22 @@
 """The command `check`: a student's own steps."""
 
+from __future__ import annotations
+
 import argparse
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 
 from raysteps.course.manifest import STEPS_HELP, chosen_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
-from raysteps.progress.check import CheckResult, check_steps
+from raysteps.progress.check import check_steps
 from raysteps.progress.standing import ALL_DONE
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command, watch_command
+
+if TYPE_CHECKING:
+    from raysteps.progress.own_check import CheckResult
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

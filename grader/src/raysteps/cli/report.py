@@ -10,7 +10,7 @@ from raysteps.common.errors import UsageError, reason
 from raysteps.common.platform import own_command
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
-from raysteps.progress.check import own_progress
+from raysteps.progress.own_check import own_progress
 from raysteps.progress.standing import standings
 from raysteps.report.attempts import OwnProgress
 from raysteps.report.student import write_student_page

@@ -221,6 +221,14 @@ def pristine_stub(project: Project, step: Step) -> str:
         raise GraderFault(f"{path}: expected the stub of {step.id}; take it from a fresh copy of the kit") from error
 
 
+def begun(project: Project, step: Step, data: bytes | None) -> str | None:
+    """The text of a student's file; None where there is none, or where its code is the stub's."""
+    if data is None:
+        return None
+    text = data.decode("utf-8", "replace")
+    return None if same_code(text, pristine_stub(project, step)) else text
+
+
 def _stub_files(project: Project, steps: list[Step]) -> dict[Path, bytes]:
     """Path and content, where students write."""
     return {project.steps / step.path: stub_for(project, step).encode() for step in steps}

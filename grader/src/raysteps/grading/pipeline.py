@@ -5,10 +5,11 @@ import tempfile
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
-from dataclasses import replace
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import GraderFault, RaystepsError, reason_and_place
@@ -29,10 +30,10 @@ from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, StepGrader, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.grading.withhold import withhold
-from raysteps.images.render import Gate, judge_picture
+from raysteps.images.render import Gate, Rendered, judge_picture
 from raysteps.judge.counterexamples import Examples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
-from raysteps.judge.hidden_tests import run_hidden_tests, take_back, unspared, why_unspared
+from raysteps.judge.hidden_tests import make_all_cases, run_hidden_tests, take_back, unspared, why_unspared
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, reference_unkept
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
@@ -40,13 +41,36 @@ from raysteps.results.settings import Settings
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, Program, StudentBuild
+from raysteps.toolchain.compile import Compiled, CompiledAhead, Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import StepLimits, submission_seconds
 
 # Of the time of a submission, and beside it: to ask a wrong function again may better it, and must cost nobody a step.
 _APART = 0.25
 _NOT_GRADED = "This step was not graded, by a fault of the grader and not of your code: somebody has to look at it."
+
+
+T = TypeVar("T")
+
+
+class SpareProcessors:
+    """Of a machine that has more of them than there are steps to grade: somebody waits for one step after a save."""
+
+    def __init__(self, amount: int, ends: ExitStack) -> None:
+        self._pool = ends.enter_context(ThreadPoolExecutor(amount)) if amount > 0 else None
+
+    def start(self, work: Callable[[], T]) -> Callable[[], T]:
+        """Gives what waits for the work's result. Without a spare processor the work is done when it is asked for."""
+        return work if self._pool is None else self._pool.submit(work).result
+
+
+@dataclass(frozen=True)
+class _RenderedScene:
+    """A scene made for this seed, and what came of it."""
+
+    scene: HiddenScene
+    path: Path
+    rendered: Rendered
 
 
 class HiddenStepGrader(StepGrader):
@@ -59,16 +83,19 @@ class HiddenStepGrader(StepGrader):
         limits: StepLimits,
         compiled: dict[str, Compiled],
         settings: Settings,
+        spare: SpareProcessors,
         apart: Sandbox,
     ) -> None:
         self._plan = read_plan(work.kit.project, step)
         super().__init__(work, step, limits, compiled, judged=self._plan is not None)
         self._settings = settings
+        self._spare = spare
         self._apart = apart  # runs what is asked a second time
         self._ran = False
         self._unexplained = False
         self._spoilt: list[str] = []  # functions that are better where the reference's stand for those before them
         self._ask: Ask | None = None
+        self._examples: Examples | None = None
         self.fault = ""  # of the grader, in this step
         if self._plan is not None:
             self.kinds = ("test", "raytrace", "worker")
@@ -102,38 +129,64 @@ class HiddenStepGrader(StepGrader):
             completed = None if binary is None else self._completed(binary)
             if completed is not None:
                 self._run_tests_again(completed["test"])
+            limits = gallery.limits  # pictures may be made meanwhile; one that hangs takes no time from functions
+            asked: Callable[[], list[HiddenResult]] = list
+            unseen: Sequence[HiddenScene] = ()
+            if plan is not None:
+                asked = self._spare.start(self._asking(plan, programs["worker"], completed, limits))
+                unseen = hidden_scenes(kit.project, step, plan, self._settings.seed)
             for case in step.images:
                 result.images.append(judge(gallery, programs["raytrace"], step, case))
-            if plan is not None:
-                seed = self._settings.seed
-                ask = self._ask = self._asked_of(programs["worker"], completed)
-                examples = None
-                if self._settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
-                    examples = Examples(ask, lambda cases, _: reference_unkept(kit, cases), gallery.out, self._work.say)
-                seconds = gallery.limits.seconds
-                result.hidden = run_hidden_tests(
-                    step, plan, ask, lambda cases, _: reference_answers(kit, cases), seed, seconds, examples
-                )
-                if binary is not None:
-                    self._ask_apart(binary, plan, seconds, examples)
-                not_spared = unspared(result.images, result.hidden)
-                take_back(result.images, result.hidden)
-                spares = not why_unspared(result.hidden)
-                for scene in hidden_scenes(kit.project, step, plan, seed):
-                    result.hidden.append(self._judge_scene(programs["raytrace"], scene, not_spared, spares=spares))
+            scenes = []
+            for scene in unseen:
+                scenes.append(self._render_scene(programs["raytrace"], scene))
+            result.hidden = asked()
+            if plan is not None and binary is not None:
+                self._ask_apart(binary, plan, limits)
+            not_spared = unspared(result.images, result.hidden)
+            take_back(result.images, result.hidden)
+            spares = not why_unspared(result.hidden)
+            result.hidden += [self._judge_scene(scene, not_spared, spares=spares) for scene in scenes]
             set_aside(result, step, kit.tests[step.id], self._work.source(step) or "", replaced=completed is not None)
             result.messages += sum_up(result)
             self._unexplained = not is_right(result)
             self._ran = True
         return self._result
 
-    def _judge_scene(self, program: Program, scene: HiddenScene, not_spared: str, *, spares: bool) -> HiddenResult:
-        """A scene made for this seed. The file's name says nothing about what it is for. `not_spared`: why few tests
-        earn nothing; `spares`: whether a picture that does not pass earns something all the same."""
+    def _asking(
+        self, plan: Plan, worker: Program, completed: Programs | None, limits: StepLimits
+    ) -> Callable[[], list[HiddenResult]]:
+        """Asks the judge's cases when it is called."""
+        kit, settings = self._work.kit, self._settings
+        ask = self._ask = self._asked_of(worker, completed, limits)
+        if settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
+            self._examples = Examples(
+                ask, lambda cases, _: reference_unkept(kit, cases), self._work.out, self._work.say
+            )
+        return partial(
+            run_hidden_tests,
+            self.step,
+            plan,
+            ask,
+            lambda cases, _: reference_answers(kit, cases),
+            settings.seed,
+            limits.seconds,
+            self._examples,
+        )
+
+    def _render_scene(self, program: Program, scene: HiddenScene) -> _RenderedScene:
+        """One that nobody has seen. The file's name says nothing about what it is for."""
+        nff = scene.nff.encode()
+        path = self._work.folder / self.step.number / f"{hashlib.sha256(nff).hexdigest()[:16]}.nff"
+        write_bytes(path, nff)
+        rendered = self._gallery.render(program, path, scene.args, noisy=scene.max_noise is not None)
+        return _RenderedScene(scene, path, rendered)
+
+    def _judge_scene(self, made: _RenderedScene, not_spared: str, *, spares: bool) -> HiddenResult:
+        """`not_spared`: why few tests earn nothing; `spares`: whether a picture that does not pass earns something all
+        the same."""
         gallery, step = self._gallery, self.step
-        path = self._work.folder / step.number / f"{hashlib.sha256(scene.nff.encode()).hexdigest()[:16]}.nff"
-        write_bytes(path, scene.nff.encode())
-        rendered = gallery.render(program, path, scene.args, noisy=scene.max_noise is not None)
+        scene, path, rendered = made.scene, made.path, made.rendered
         result = HiddenResult(scene.name, "picture", 0.0, weight=scene.weight)
         result.seconds = round(rendered.ran.outcome.seconds, 2)
         if rendered.pixels is None:
@@ -194,22 +247,22 @@ class HiddenStepGrader(StepGrader):
             for test in self._result.tests
         ]
 
-    def _asked_of(self, worker: Program, completed: Programs | None) -> Ask:
-        gallery = self._gallery
-        ask = ask_student(gallery.sandbox, worker, gallery.limits)
+    def _asked_of(self, worker: Program, completed: Programs | None, limits: StepLimits) -> Ask:
+        sandbox = self._work.sandbox
+        ask = ask_student(sandbox, worker, limits)
         if completed is None:
             return ask
         written = [name for name in self.step.functions if name not in self._unfinished]
-        return ask_some(ask, ask_student(gallery.sandbox, completed["worker"], gallery.limits), written)
+        return ask_some(ask, ask_student(sandbox, completed["worker"], limits), written)
 
     # A function that is wrong costs its own hidden points only: those after it, which may call it, are asked again with
     # the reference's in its place.
 
-    def _ask_apart(self, binary: Path, plan: Plan, seconds: float, examples: Examples | None) -> None:
+    def _ask_apart(self, binary: Path, plan: Plan, limits: StepLimits) -> None:
         """Whoever is better so is judged so. Who hung is not asked again, nor anybody where several functions are not
         written: as in `_completed`, what is left would be taken for most of the work. A tree that spares nothing stays:
         a search through it spares nothing either."""
-        result, kit, missing = self._result, self._work.kit, set(self._unfinished)
+        result, kit, missing, examples = self._result, self._work.kit, set(self._unfinished), self._examples
         wrong = [item for item in result.hidden if not item.passed and item.name not in missing]
         if len(missing) > 1:
             return
@@ -224,10 +277,10 @@ class HiddenStepGrader(StepGrader):
             again = run_hidden_tests(
                 self.step,
                 replace(plan, functions=tuple(one for one in plan.functions if one.name == item.name)),
-                ask := ask_student(self._apart, worker, self._gallery.limits),
+                ask := ask_student(self._apart, worker, limits),
                 lambda cases, _: reference_answers(kit, cases),
                 self._settings.seed,
-                seconds,
+                limits.seconds,
                 None if examples is None else replace(examples, student=ask, above=item.share),
             )[0]
             if again.share > item.share:
@@ -329,25 +382,31 @@ def grade_submission(
     course: str = "",
     tell: Callable[[Results], None] | None = None,
     name_crash: Callable[[Sequence[StepResult]], None] = lambda found: None,
+    ahead: CompiledAhead | None = None,
 ) -> Results:
     """Writes out/results.json, without what `settings.feedback` withholds, and out/pictures/; returns everything. What
     goes wrong in a step costs that step only; where it was the grader that failed in one, GraderFault says so when all
     is written. So many `jobs` are done at a time; that changes a grade only where a step is near its time limit, or
     where all programs together use theirs up.
     `course` is the name that results.json tells. `name_crash` may add to messages where a test crashed. Where known
-    mistakes have to be learned, the results are written before, or `tell` gets them: nobody waits for names."""
+    mistakes have to be learned, the results are written before, or `tell` gets them: nobody waits for names. Steps that
+    are compiled `ahead` are not compiled again."""
     start = time.monotonic()
     together = submission_seconds(settings.limits)
     counted, apart = AccountingSandbox(sandbox, together), AccountingSandbox(sandbox, _APART * together)
-    with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        work = GradingContext(kit, submission, counted, Path(folder), out, say)
-        chosen = _chosen(kit, settings)
+    chosen = _chosen(kit, settings)
+    with ExitStack() as ends:
+        folder = ends.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True))
+        work = GradingContext(kit, submission, counted, Path(folder), out, say, ahead=ahead)
+        spare = SpareProcessors(jobs - len(chosen), ends)
         with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
             say("building the steps")
+            for step in chosen:
+                spare.start(partial(make_all_cases, step, read_plan(kit.project, step), settings.seed))
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
             graders = [
-                HiddenStepGrader(work, step, kit.limits_of(step, settings.limits), compiled, settings, apart)
+                HiddenStepGrader(work, step, kit.limits_of(step, settings.limits), compiled, settings, spare, apart)
                 for step in chosen
             ]
             order = -1 if jobs > 1 else 1  # late steps take longest: first, they leave nobody idle at the end

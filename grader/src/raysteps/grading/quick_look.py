@@ -10,7 +10,7 @@ from raysteps.course.manifest import Step, earlier
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
-from raysteps.grading.self_check import own_libraries, own_steps
+from raysteps.grading.self_check import own_steps
 from raysteps.grading.step import GradingContext, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.images.compare import write_png
@@ -18,7 +18,7 @@ from raysteps.images.render import shown_reference
 from raysteps.results.model import ImageResult, StepResult
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import load_submission
-from raysteps.toolchain.compile import Program, StudentBuild, build_log
+from raysteps.toolchain.compile import Program, StudentBuild, build_log, own_libraries
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
 
 ReportCallback = Callable[[StepResult], None]

@@ -22,7 +22,7 @@ from raysteps.images.render import reference_image_path, render
 from raysteps.results.model import Integration, Results, StepResult, Timing
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, KeptLibraries, Program, StudentBuild
+from raysteps.toolchain.compile import Compiled, CompiledAhead, Program, StudentBuild, own_libraries
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
@@ -37,11 +37,6 @@ def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -
 
 _LARGER = 3  # times as wide and as high
 _LARGE_SECONDS = 5.0  # of all large pictures together, on the clock: nobody waits for them
-
-
-def own_libraries(kit: BuiltKit) -> KeptLibraries:
-    """Those of the student whose kit it is."""
-    return KeptLibraries(kit.project.build / "own")
 
 
 class SelfCheckGrader(StepGrader):
@@ -203,13 +198,14 @@ def self_check(
     out: Path,
     say: ProgressCallback,
     tell: Callable[[Results], None] | None = None,
+    ahead: CompiledAhead | None = None,
 ) -> Results:
     """Writes out/pictures/. Points are those of the visible part. Where somebody waits to be told of them, larger
     pictures are drawn after that."""
     start = time.monotonic()
     counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        work = GradingContext(kit, submission, counted, Path(folder), out, say, own_libraries(kit))
+        work = GradingContext(kit, submission, counted, Path(folder), out, say, own_libraries(kit), ahead)
         steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
         found, graders = _check(work, steps, jobs, chosen)
         asked = [found[step.id] for step in chosen]

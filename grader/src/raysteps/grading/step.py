@@ -12,7 +12,7 @@ from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import usable_folder
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
-from raysteps.course.stubs import pristine_stub, same_code, unfinished_functions
+from raysteps.course.stubs import begun, unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points, test_weights
@@ -23,7 +23,7 @@ from raysteps.results.store import FOLDER as CASES
 from raysteps.results.store import place_of
 from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, KeptLibraries, Program, StudentBuild, build_log
+from raysteps.toolchain.compile import Compiled, CompiledAhead, KeptLibraries, Program, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import StepLimits
 
@@ -117,14 +117,11 @@ class GradingContext:
     out: Path
     say: ProgressCallback = lambda text: None
     kept: KeptLibraries | None = None
+    ahead: CompiledAhead | None = None
 
     def source(self, step: Step) -> str | None:
         """The student's file, or None when there is none or its code is the stub's."""
-        data = self.submission.sources.get(step.id)
-        if data is None:
-            return None
-        text = data.decode("utf-8", "replace")
-        return None if same_code(text, pristine_stub(self.kit.project, step)) else text
+        return begun(self.kit.project, step, self.submission.sources.get(step.id))
 
 
 class StepGrader:
@@ -232,6 +229,8 @@ def compile_steps(
 
     def compile_one(item: tuple[Step, str]) -> Compiled:
         step, source = item
+        if work.ahead is not None and step.id in work.ahead:
+            return work.ahead[step.id].result()
         build = StudentBuild(work.kit, work.sandbox, work.folder, work.kept)
         return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
 

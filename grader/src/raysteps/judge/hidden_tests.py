@@ -100,6 +100,12 @@ def make_cases(step: Step, plan: FunctionPlan, seed: int | str) -> Sequence[Case
     return _cases(step.id, plan.name, tuple(plan.cases.items()), seed)
 
 
+def make_all_cases(step: Step, plan: Plan | None, seed: int | str) -> None:
+    """Of all functions, so that they are kept when they are wanted."""
+    for function in plan.functions if plan is not None else ():
+        make_cases(step, function, seed)
+
+
 # How a function's share comes about.
 
 _ORDINARY = 0.5  # of a function's points are for the first kind of cases, which are ordinary

@@ -8,7 +8,6 @@ from raysteps.common.platform import own_command
 from raysteps.common.text import number, tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import here
-from raysteps.images.compare import worst_pixel
 from raysteps.results.model import HandIn, ImageResult, Results, Total
 from raysteps.results.review import Comment, PointsOverride, Review
 
@@ -70,6 +69,8 @@ def inspect_worst(step: Step, image: ImageResult, out: Path) -> list[str] | None
     case = next((case for case in step.images if case.name == image.name), None)
     if case is None or image.passed or not image.mine or not image.reference:
         return None
+    from raysteps.images.compare import worst_pixel  # what takes longest to import, only where a picture is wrong
+
     worst = worst_pixel(out / image.mine, out / image.reference)
     return None if worst is None else _inspect_words(case, *worst, here().has_reference)
 

@@ -3,9 +3,11 @@
 import os
 import re
 from collections.abc import Mapping
+from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeAlias
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import content_hash, write_bytes
@@ -136,6 +138,9 @@ class Compiled:
     unreadable: bool = False  # an object that no compiler makes of what a student writes
 
 
+CompiledAhead: TypeAlias = Mapping[str, "Future[Compiled]"]  # by id, steps whose compiler was started before
+
+
 @dataclass(frozen=True)
 class Program:
     """A student's step and the program that needs it: one process, or where `home` is given two, of which the first
@@ -186,6 +191,11 @@ class KeptLibraries:
             for old in kept[_MAX_KEPT:]:
                 old.unlink(missing_ok=True)
                 old.with_suffix(".log").unlink(missing_ok=True)
+
+
+def own_libraries(kit: BuiltKit) -> KeptLibraries:
+    """Those of the student whose kit it is."""
+    return KeptLibraries(kit.project.build / "own")
 
 
 _NO_WORK = TaskResult(Outcome(0, False, "", "", 0.0), {}, 0.0, "")

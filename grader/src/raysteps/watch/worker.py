@@ -19,6 +19,7 @@ from raysteps.common.process import end_what_runs
 from raysteps.course.manifest import chosen_step
 from raysteps.course.project import Project
 from raysteps.grading.quick_look import QuickLook
+from raysteps.progress import own_check  # noqa: F401 - ahead of time
 from raysteps.progress.check import check_steps
 from raysteps.progress.standing import own_source
 from raysteps.results.model import StepResult
