@@ -26,6 +26,8 @@ pytestmark = pytest.mark.portable
         ("compare a.png b.png -x", "compare", "-x: there is no such option"),
         ("list all", "list", "'all': expected nothing more"),
         ("hint --level x", "hint", "argument --level: expected a whole number from 1 on, found 'x'"),
+        ("grade there --seed 1.5", "grade", "argument --seed: expected a whole number, found '1.5'"),
+        ("dev errors --minutes few", "dev errors", "argument --minutes: expected a number such as 0.5, found 'few'"),
     ],
 )
 def test_the_usage_is_that_of_the_command_and_one_line_says_what_is_wrong(

@@ -121,9 +121,28 @@ def _module(project: Project, command: Command) -> ModuleType:
 _OF_THE_REFERENCE = ("--impl", "--against")
 
 
+def _whole_number(word: str) -> int:
+    try:
+        return int(word)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"expected a whole number, found '{word}'") from error
+
+
+def _number(word: str) -> float:
+    try:
+        return float(word)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"expected a number such as 0.5, found '{word}'") from error
+
+
 class _Parser(argparse.ArgumentParser):
     """Of one command: it refuses what it does not know itself, with its own usage. argparse hands that up to the
     parser of all commands, which knows nothing of it, and asks first for what is missing."""
+
+    def __init__(self, *words: Any, **options: Any) -> None:
+        super().__init__(*words, **options)
+        self.register("type", int, _whole_number)
+        self.register("type", float, _number)
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         words = args or ()
