@@ -14,13 +14,12 @@ from raysteps.course.stubs import make_stub
 from raysteps.grading import pipeline
 from raysteps.grading.pipeline import HiddenStepGrader, grade_submission
 from raysteps.grading.scoring import test_weights as weights_of
-from raysteps.grading.step import AccountingSandbox
 from raysteps.judge.counterexamples import Examples, read_case
 from raysteps.judge.worker import JudgedCase
 from raysteps.results.model import StepResult
 from raysteps.results.settings import Settings
 from raysteps.sandbox.limits_only import LimitsOnly
-from raysteps.sandbox.task import Sandbox, Task, TaskResult
+from raysteps.sandbox.task import AccountingSandbox, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 

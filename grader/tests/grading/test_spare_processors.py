@@ -2,11 +2,12 @@
 
 from concurrent.futures import Future
 from pathlib import Path
-from threading import Barrier, Event
+from threading import Barrier, Event, Lock
 
 import pytest
 from conftest import Sources
 
+from raysteps.common.process import Outcome
 from raysteps.grading import pipeline
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.hidden_tests import make_all_cases
@@ -15,43 +16,58 @@ from raysteps.results.settings import Settings
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, StudentBuild
+from raysteps.toolchain.compile import Compiled, CompiledAhead, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 STEP = "07-tone-mapping"
 _PATIENCE = 300.0  # seconds, after which nobody comes any more
-_HANGS = "    for (volatile int turn = 0; turn >= 0; turn = 1) {\n    }\n"
-_AFTER_A_WHILE = "    static int calls = 0;\n    if (++calls < 3000) {\n        return k_black;\n    }\n"
 
 
 def _grade(kit: BuiltKit, source: str, out: Path, sandbox: Sandbox, jobs: int) -> StepResult:
     submission = Submission("jo", {STEP: source.encode()}, {})
-    settings = Settings(only=(STEP,), limits={"seconds": 1.0})
+    settings = Settings(only=(STEP,), limits={"seconds": 8.0})
     return grade_submission(kit.in_one_process(), submission, settings, sandbox, out, jobs=jobs).steps[0]
 
 
+def _kind(task: Task) -> str:
+    names = {word.inner_name for word in task.command if isinstance(word, Input)}
+    return next((kind for kind in ("raytrace", "worker") if kind in names), "")
+
+
 class _Meeting:
-    """The first picture and the first questions of the judge wait for each other."""
+    """The first of these kinds of programs wait for each other."""
 
     isolation = LimitsOnly.isolation
 
-    def __init__(self, kit: BuiltKit) -> None:
-        self._kinds = ("raytrace", "worker")
-        self._barrier = Barrier(len(self._kinds), timeout=_PATIENCE)
-        self._came: set[str] = set()
+    def __init__(self, *kinds: str) -> None:
+        self._kinds = list(kinds)
+        self._barrier = Barrier(len(kinds), timeout=_PATIENCE)
+        self._lock = Lock()
 
     def run(self, task: Task) -> TaskResult:
-        names = {word.inner_name for word in task.command if isinstance(word, Input)}
-        for kind in self._kinds:
-            if kind in names and kind not in self._came:
-                self._came.add(kind)
-                self._barrier.wait()
+        with self._lock:
+            waits = _kind(task) in self._kinds
+            if waits:
+                self._kinds.remove(_kind(task))
+        if waits:
+            self._barrier.wait()
         return LimitsOnly().run(task)
 
 
 def test_pictures_are_made_while_the_judge_asks(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
-    result = _grade(kit, solved[STEP], tmp_path, _Meeting(kit), 2)
+    result = _grade(kit, solved[STEP], tmp_path, _Meeting("raytrace", "worker"), 2)
     assert (result.status, result.points) == ("passed", result.max), result.messages
+
+
+def test_no_step_waits_for_a_processor_that_is_busy_with_another(
+    kit: BuiltKit, solved: Sources, tmp_path: Path
+) -> None:
+    """Three steps, and one processor more: the judges of all three meet, two of them asked by their own steps."""
+    chosen = ("01-camera-rays", "03-phong-shading", STEP)
+    submission = Submission("jo", {step: solved[step].encode() for step in chosen}, {})
+    sandbox = _Meeting("worker", "worker", "worker")
+    results = grade_submission(kit.in_one_process(), submission, Settings(only=chosen), sandbox, tmp_path, jobs=4)
+    assert [result.status for result in results.steps] == ["passed"] * 3
 
 
 def test_what_is_compiled_ahead_is_not_compiled_again(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
@@ -68,7 +84,9 @@ def test_what_is_compiled_ahead_is_not_compiled_again(kit: BuiltKit, solved: Sou
     compiled: Future[Compiled] = Future()
     compiled.set_result(StudentBuild(whole, LimitsOnly(), tmp_path).compile(step, source, kit.limits_of(step)))
     submission, settings = Submission("jo", {STEP: source}, {}), Settings(only=(STEP,))
-    results = grade_submission(whole, submission, settings, NoCompiler(), tmp_path / "out", ahead={STEP: compiled})
+    results = grade_submission(
+        whole, submission, settings, NoCompiler(), tmp_path / "out", ahead=CompiledAhead({STEP: compiled})
+    )
     assert results.steps[0].status == "passed"
 
 
@@ -92,16 +110,23 @@ def test_questions_are_made_while_the_compiler_works(
     assert _grade(kit, solved[STEP], tmp_path, Waiting(), 2).status == "passed"
 
 
-@pytest.mark.parametrize("before", ["", _AFTER_A_WHILE], ids=["everywhere", "in pictures"])
-def test_a_hanging_step_gets_the_same_with_and_without(
-    kit: BuiltKit, solved: Sources, tmp_path: Path, before: str
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_pictures_that_hang_take_no_time_from_the_judges_questions(
+    kit: BuiltKit, solved: Sources, tmp_path: Path, jobs: int
 ) -> None:
-    """Whoever hangs runs out of patience, and what is asked meanwhile must not depend on when."""
-    head = "Color tone_map(const Color& color) {\n"
-    source = solved[STEP].replace(head, head + before + _HANGS)
-    assert _HANGS in source
-    one, two = (_grade(kit, source, tmp_path / str(jobs), LimitsOnly(), jobs) for jobs in (1, 2))
-    for item in (*one.hidden, *two.hidden):
-        item.seconds = 0.0
-    assert one == two
-    assert {image.outcome for image in one.images} == {"timeout"}
+    """Whether they are made before, or meanwhile: a grade must not depend on which of them is first."""
+    seconds: dict[str, list[float]] = {"raytrace": [], "worker": []}
+
+    class Hanging:
+        isolation = LimitsOnly.isolation
+
+        def run(self, task: Task) -> TaskResult:
+            seconds.setdefault(_kind(task), []).append(task.limits.cpu_seconds)
+            if _kind(task) == "raytrace":
+                return TaskResult(Outcome(-9, True, "", "", 8.0), {}, 8.0, "cpu")
+            return LimitsOnly().run(task)
+
+    result = _grade(kit, solved[STEP], tmp_path, Hanging(), jobs)
+    assert {image.outcome for image in result.images} == {"timeout"}
+    assert seconds["raytrace"][:3] == [8.0, 8.0, 2.0], "the third picture has a quarter"
+    assert seconds["worker"][:2] == [8.0, 8.0], "one for each function"

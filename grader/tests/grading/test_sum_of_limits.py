@@ -9,9 +9,8 @@ import pytest
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.grading.images import ImageGrader
-from raysteps.grading.step import AccountingSandbox
 from raysteps.grading.unit_tests import run_tests
-from raysteps.sandbox.task import Isolation, LimitHit, Limits, Task, TaskResult
+from raysteps.sandbox.task import AccountingSandbox, Isolation, LimitHit, Limits, Task, TaskResult
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import give_up_after, limits_of, parse_limits, submission_seconds

@@ -3,20 +3,27 @@
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from conftest import Sources
 from course_fakes import checked, small_project, write_own
 
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
+from raysteps.course.stubs import pristine_stub
 from raysteps.progress import check, own_check
 from raysteps.report.attempts import read_attempts
 from raysteps.report.student import REPORT
 from raysteps.results.model import Results
 from raysteps.results.store import read_results
+from raysteps.sandbox.task import Sandbox
+from raysteps.submission.load import Submission
+from raysteps.toolchain.compile import NOTHING_AHEAD
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _CODE = "int answer() { return 42; }\n"
 
@@ -38,7 +45,7 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
         return Results.of("steps", [checked(step, "passed", 6.5).steps[0] for step in chosen], kit=kit.fingerprint)
 
     monkeypatch.setattr(check, "build_kit", lambda *_: kit)
-    monkeypatch.setattr(check, "_compiled_ahead", lambda *_: {})
+    monkeypatch.setattr(check, "_compiled_ahead", lambda *_: NOTHING_AHEAD)
     monkeypatch.setattr(own_check, "_look_through", look_through)
     return project
 
@@ -133,8 +140,51 @@ def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: P
     assert "Changed since it was checked" not in _page(course)
 
 
-def test_the_compiler_waits_for_nothing_that_grades() -> None:
-    """The command is imported before the compiler is started, what it compares pictures with meanwhile."""
-    script = "import sys, raysteps.cli.check; print(*sys.modules)"
-    done = subprocess.run([sys.executable, "-P", "-c", script], capture_output=True, text=True, check=True)
-    assert {"numpy", "jinja2", "raysteps.grading.step"}.isdisjoint(done.stdout.split())
+_NO_COMPILER = """
+import sys
+from raysteps.cli import app
+from raysteps.progress import check
+
+def stop(*_):
+    print(*sys.modules)
+    sys.exit(0)
+
+check._compiled_ahead = stop
+app.main(["check", "01"])
+"""
+
+
+def test_the_compiler_is_started_before_what_grades_is_imported(kit: BuiltKit) -> None:
+    done = subprocess.run([sys.executable, "-P", "-c", _NO_COMPILER], capture_output=True, text=True, check=True)
+    there = set(done.stdout.split())
+    assert "raysteps.toolchain.compile" in there
+    assert {"numpy", "jinja2", "raysteps.grading.step"}.isdisjoint(there)
+
+
+@pytest.mark.parametrize("has_reference", [True, False])
+def test_what_is_compiled_ahead(
+    kit: BuiltKit, solved: Sources, has_reference: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The chosen steps that were begun; a student's own libraries are looked through where the kit is a student's."""
+    one, stub, missing, other = kit.steps[:4]
+    built: dict[str, object] = {}
+
+    class Build:
+        def __init__(self, _kit: object, sandbox: Sandbox, _folder: Path, kept: object) -> None:
+            built["kept"] = kept
+            self._sandbox = sandbox
+
+        def compile(self, step: Step, source: bytes, _limits: object) -> str:
+            return f"{step.number}: {len(source)}"
+
+    monkeypatch.setattr(check, "StudentBuild", Build)
+    sources = {step.id: solved[step.id].encode() for step in (one, other)}
+    sources[stub.id] = pristine_stub(kit.project, stub).encode()
+    fake: Any = SimpleNamespace(
+        project=kit.project, has_reference=has_reference, limits_of=kit.limits_of, fingerprint=kit.fingerprint
+    )
+    with ExitStack() as ends:
+        ahead = check._compiled_ahead(fake, Submission("steps", sources, {}), [one, stub, missing], ends)
+        told: dict[str, Any] = {step: future.result() for step, future in ahead.steps.items()}
+    assert told == {one.id: f"01: {len(sources[one.id])}"}
+    assert (built["kept"] is None) == has_reference

@@ -221,7 +221,7 @@ def pristine_stub(project: Project, step: Step) -> str:
         raise GraderFault(f"{path}: expected the stub of {step.id}; take it from a fresh copy of the kit") from error
 
 
-def begun(project: Project, step: Step, data: bytes | None) -> str | None:
+def begun_source(project: Project, step: Step, data: bytes | None) -> str | None:
     """The text of a student's file; None where there is none, or where its code is the stub's."""
     if data is None:
         return None

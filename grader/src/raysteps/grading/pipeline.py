@@ -4,7 +4,7 @@ import hashlib
 import tempfile
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -27,7 +27,7 @@ from raysteps.grading.images import (
     trouble,
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import AccountingSandbox, GradingContext, Programs, StepGrader, compile_steps
+from raysteps.grading.step import GradingContext, Programs, StepGrader, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.grading.withhold import withhold
 from raysteps.images.render import Gate, Rendered, judge_picture
@@ -39,9 +39,9 @@ from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers,
 from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
 from raysteps.results.settings import Settings
 from raysteps.results.store import write_results
-from raysteps.sandbox.task import Sandbox
+from raysteps.sandbox.task import AccountingSandbox, Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, CompiledAhead, Program, StudentBuild
+from raysteps.toolchain.compile import NOTHING_AHEAD, Compiled, CompiledAhead, Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.toolchain.limits import StepLimits, submission_seconds
 
@@ -50,18 +50,28 @@ _APART = 0.25
 _NOT_GRADED = "This step was not graded, by a fault of the grader and not of your code: somebody has to look at it."
 
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 class SpareProcessors:
-    """Of a machine that has more of them than there are steps to grade: somebody waits for one step after a save."""
+    """Begins work ahead of time where a machine has more processors than there are steps to grade: somebody waits for
+    one step after a save."""
 
     def __init__(self, amount: int, ends: ExitStack) -> None:
         self._pool = ends.enter_context(ThreadPoolExecutor(amount)) if amount > 0 else None
+        if self._pool is not None:
+            ends.callback(self._pool.shutdown, wait=False, cancel_futures=True)
 
-    def start(self, work: Callable[[], T]) -> Callable[[], T]:
-        """Gives what waits for the work's result. Without a spare processor the work is done when it is asked for."""
-        return work if self._pool is None else self._pool.submit(work).result
+    def start(self, work: Callable[[], _T]) -> "Future[_T] | None":
+        """None where no processor is spare. Whoever cannot wait for one cancels the future, and does the work."""
+        return None if self._pool is None else self._pool.submit(work)
+
+    def make_questions(self, work: GradingContext, chosen: Sequence[Step], seed: int) -> None:
+        """While the compiler works; what is made is kept."""
+        for step in chosen if self._pool is not None else ():
+            plan = read_plan(work.kit.project, step)
+            if plan is not None and work.source(step) is not None:
+                self.start(partial(make_all_cases, step, plan, seed))
 
 
 @dataclass(frozen=True)
@@ -118,7 +128,7 @@ class HiddenStepGrader(StepGrader):
             self._result = StepResult(step.id, "failed", 0.0, most, step.bonus, messages=[_NOT_GRADED])
 
     def grade(self) -> StepResult:
-        """The visible tests and pictures, then the judge's cases, and scenes that nobody has seen."""
+        """The visible tests, then pictures, those of scenes that nobody has seen, too, and the judge's cases."""
         with self._guarded():
             programs = self.programs()
             if programs is None:
@@ -130,17 +140,18 @@ class HiddenStepGrader(StepGrader):
             if completed is not None:
                 self._run_tests_again(completed["test"])
             limits = gallery.limits  # pictures may be made meanwhile; one that hangs takes no time from functions
-            asked: Callable[[], list[HiddenResult]] = list
+            ask_all: Callable[[], list[HiddenResult]] = list
             unseen: Sequence[HiddenScene] = ()
             if plan is not None:
-                asked = self._spare.start(self._asking(plan, programs["worker"], completed, limits))
+                ask_all = self._asking(plan, programs["worker"], completed, limits)
                 unseen = hidden_scenes(kit.project, step, plan, self._settings.seed)
+            asked = self._spare.start(ask_all)
             for case in step.images:
                 result.images.append(judge(gallery, programs["raytrace"], step, case))
             scenes = []
             for scene in unseen:
                 scenes.append(self._render_scene(programs["raytrace"], scene))
-            result.hidden = asked()
+            result.hidden = ask_all() if asked is None or asked.cancel() else asked.result()
             if plan is not None and binary is not None:
                 self._ask_apart(binary, plan, limits)
             not_spared = unspared(result.images, result.hidden)
@@ -382,7 +393,7 @@ def grade_submission(
     course: str = "",
     tell: Callable[[Results], None] | None = None,
     name_crash: Callable[[Sequence[StepResult]], None] = lambda found: None,
-    ahead: CompiledAhead | None = None,
+    ahead: CompiledAhead = NOTHING_AHEAD,
 ) -> Results:
     """Writes out/results.json, without what `settings.feedback` withholds, and out/pictures/; returns everything. What
     goes wrong in a step costs that step only; where it was the grader that failed in one, GraderFault says so when all
@@ -401,8 +412,7 @@ def grade_submission(
         spare = SpareProcessors(jobs - len(chosen), ends)
         with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
             say("building the steps")
-            for step in chosen:
-                spare.start(partial(make_all_cases, step, read_plan(kit.project, step), settings.seed))
+            spare.make_questions(work, chosen, settings.seed)
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
             graders = [
@@ -416,7 +426,8 @@ def grade_submission(
             if counted.is_spent:
                 _tell_of_the_limit(steps, together)
             name_crash(steps)
-            timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds + apart.cpu_seconds, 2))
+            used = counted.cpu_seconds + apart.cpu_seconds + ahead.cpu_seconds
+            timing = Timing(round(time.monotonic() - start, 2), round(used, 2))
             results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
             results.course = course
             if any(grader.has_to_learn for grader in graders) and not any(grader.fault for grader in graders):

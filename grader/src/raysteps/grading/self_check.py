@@ -15,14 +15,14 @@ from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, earlier
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import AccountingSandbox, GradingContext, StepGrader, compile_steps
+from raysteps.grading.step import GradingContext, StepGrader, compile_steps
 from raysteps.grading.unit_tests import FIND_THE_LINE, has_crashed, has_hung, set_aside, tell_crash_line
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
 from raysteps.results.model import Integration, Results, StepResult, Timing
-from raysteps.sandbox.task import Sandbox
+from raysteps.sandbox.task import AccountingSandbox, Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, CompiledAhead, Program, StudentBuild, own_libraries
+from raysteps.toolchain.compile import NOTHING_AHEAD, Compiled, CompiledAhead, Program, StudentBuild, own_libraries
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
@@ -198,7 +198,7 @@ def self_check(
     out: Path,
     say: ProgressCallback,
     tell: Callable[[Results], None] | None = None,
-    ahead: CompiledAhead | None = None,
+    ahead: CompiledAhead = NOTHING_AHEAD,
 ) -> Results:
     """Writes out/pictures/. Points are those of the visible part. Where somebody waits to be told of them, larger
     pictures are drawn after that."""
@@ -210,7 +210,7 @@ def self_check(
         found, graders = _check(work, steps, jobs, chosen)
         asked = [found[step.id] for step in chosen]
         name_crash(kit, submission, sandbox, say, asked)
-        timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds, 2))
+        timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds + ahead.cpu_seconds, 2))
         results = Results.of(submission.name, asked, kit.fingerprint, counted.isolation, timing)
         if tell is not None:
             tell(results)

@@ -1,18 +1,15 @@
 """What grading a step at home and in a course have in common: it is built, and its visible tests are run."""
 
-import math
 import shutil
-import threading
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import usable_folder
-from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
-from raysteps.course.stubs import begun, unfinished_functions
+from raysteps.course.stubs import begun_source, unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points, test_weights
@@ -21,9 +18,17 @@ from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
 from raysteps.results.store import FOLDER as CASES
 from raysteps.results.store import place_of
-from raysteps.sandbox.task import Isolation, Limits, Sandbox, Task, TaskResult
+from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
-from raysteps.toolchain.compile import Compiled, CompiledAhead, KeptLibraries, Program, StudentBuild, build_log
+from raysteps.toolchain.compile import (
+    NOTHING_AHEAD,
+    Compiled,
+    CompiledAhead,
+    KeptLibraries,
+    Program,
+    StudentBuild,
+    build_log,
+)
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import StepLimits
 
@@ -61,51 +66,6 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
         raise UsageError(f"{out}: old results cannot be removed: {reason(error)}") from error
 
 
-# A sandbox that adds up what its tasks cost, and tells of limits in round numbers.
-
-
-def _as_limited(ran: TaskResult, limits: Limits) -> TaskResult:
-    """A task that was stopped took as long as it may, however late the grader looked, and whether it was the clock that
-    ended it, as on a busy machine, or the processor time: so the same submission always gets the same words."""
-    if ran.stopped not in ("wall", "cpu"):
-        return ran
-    seconds = min(limits.wall_seconds, limits.cpu_seconds)
-    return replace(ran, outcome=replace(ran.outcome, seconds=seconds))
-
-
-_NOT_RUN = TaskResult(Outcome(-9, True, "", "", 0.0), {}, 0.0, "wall")
-
-
-class AccountingSandbox:
-    """Hands each task on, keeps the sum of processor seconds, and runs nothing more when all tasks together have taken
-    `seconds` on the clock. Safe for several threads."""
-
-    def __init__(self, sandbox: Sandbox, seconds: float = math.inf) -> None:
-        self._sandbox = sandbox
-        self._lock = threading.Lock()
-        self._left = seconds
-        self.cpu_seconds = 0.0
-
-    @property
-    def is_spent(self) -> bool:
-        return self._left <= 0
-
-    @property
-    def isolation(self) -> Isolation:
-        return self._sandbox.isolation
-
-    def run(self, task: Task) -> TaskResult:
-        """Runs the task in the sandbox."""
-        if self.is_spent:
-            return _NOT_RUN
-        limits = replace(task.limits, wall_seconds=min(task.limits.wall_seconds, self._left))
-        ran = self._sandbox.run(replace(task, limits=limits))
-        with self._lock:
-            self.cpu_seconds += ran.cpu_seconds
-            self._left -= ran.outcome.seconds
-        return _as_limited(ran, limits)
-
-
 @dataclass(frozen=True)
 class GradingContext:
     """What is graded, where it is built and where the results go."""
@@ -117,11 +77,11 @@ class GradingContext:
     out: Path
     say: ProgressCallback = lambda text: None
     kept: KeptLibraries | None = None
-    ahead: CompiledAhead | None = None
+    ahead: CompiledAhead = NOTHING_AHEAD
 
     def source(self, step: Step) -> str | None:
         """The student's file, or None when there is none or its code is the stub's."""
-        return begun(self.kit.project, step, self.submission.sources.get(step.id))
+        return begun_source(self.kit.project, step, self.submission.sources.get(step.id))
 
 
 class StepGrader:
@@ -229,8 +189,8 @@ def compile_steps(
 
     def compile_one(item: tuple[Step, str]) -> Compiled:
         step, source = item
-        if work.ahead is not None and step.id in work.ahead:
-            return work.ahead[step.id].result()
+        if step.id in work.ahead.steps:
+            return work.ahead.steps[step.id].result()
         build = StudentBuild(work.kit, work.sandbox, work.folder, work.kept)
         return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
 

@@ -100,9 +100,9 @@ def make_cases(step: Step, plan: FunctionPlan, seed: int | str) -> Sequence[Case
     return _cases(step.id, plan.name, tuple(plan.cases.items()), seed)
 
 
-def make_all_cases(step: Step, plan: Plan | None, seed: int | str) -> None:
-    """Of all functions, so that they are kept when they are wanted."""
-    for function in plan.functions if plan is not None else ():
+def make_all_cases(step: Step, plan: Plan, seed: int | str) -> None:
+    """Those of all functions, so that they are there when they are wanted."""
+    for function in plan.functions:
         make_cases(step, function, seed)
 
 

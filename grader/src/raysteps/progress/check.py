@@ -11,11 +11,12 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from raysteps.common.files import one_at_a_time
+from raysteps.common.files import one_at_a_time, usable_folder
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.course.stubs import begun
+from raysteps.course.stubs import begun_source
 from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import AccountingSandbox
 from raysteps.submission.load import Submission, load_submission
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.compile import CompiledAhead, StudentBuild, own_libraries
@@ -30,13 +31,15 @@ def _compiled_ahead(kit: BuiltKit, submission: Submission, chosen: list[Step], e
     folder = ends.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True))
     pool = ends.enter_context(ThreadPoolExecutor(os.cpu_count()))
     ends.callback(pool.shutdown, wait=False, cancel_futures=True)
-    build = StudentBuild(kit, LimitsOnly(), Path(folder), None if kit.has_reference else own_libraries(kit))
-    sources = {step: begun(kit.project, step, submission.sources.get(step.id)) for step in chosen}
-    return {
+    sandbox = AccountingSandbox(LimitsOnly())
+    build = StudentBuild(kit, sandbox, Path(folder), None if kit.has_reference else own_libraries(kit))
+    sources = {step: begun_source(kit.project, step, submission.sources.get(step.id)) for step in chosen}
+    begun = {
         step.id: pool.submit(build.compile, step, source.encode(), kit.limits_of(step))
         for step, source in sorted(sources.items(), key=lambda item: -len(item[1] or ""))
         if source is not None
     }
+    return CompiledAhead(begun, sandbox)
 
 
 def check_steps(
@@ -49,6 +52,7 @@ def check_steps(
         lock = project.build / "check.lock"
         ends.enter_context(one_at_a_time(lock, lambda: say("waiting for another command, which checks here")))
         kit = build_kit(project, say).in_one_process()
+        usable_folder(project.build / "check")
         submission = load_submission(project.steps, kit.steps)
         ahead = _compiled_ahead(kit, submission, chosen, ends)
         from raysteps.progress.own_check import check_and_keep

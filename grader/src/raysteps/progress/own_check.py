@@ -87,7 +87,8 @@ def check_and_keep(
     say: ProgressCallback,
     tell: Callable[[CheckResult], None] | None,
 ) -> CheckResult:
-    """See `check_steps`."""
+    """Grades the chosen steps, and writes build/check with what is kept there of the others; `tell` gets it at once,
+    where more is still to be learned or drawn."""
     project = kit.project
     out = project.build / "check"
     before = _found_before(out, kit, chosen)

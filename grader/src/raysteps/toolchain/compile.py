@@ -5,9 +5,8 @@ import re
 from collections.abc import Mapping
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TypeAlias
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import content_hash, write_bytes
@@ -16,7 +15,7 @@ from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import included, pristine_stub
-from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
+from raysteps.sandbox.task import AccountingSandbox, Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.kit_artifacts import NOTHING, BuiltKit, Kind, ProgramLinker, Replaced
 from raysteps.toolchain.limits import StepLimits
 from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
@@ -138,7 +137,20 @@ class Compiled:
     unreadable: bool = False  # an object that no compiler makes of what a student writes
 
 
-CompiledAhead: TypeAlias = Mapping[str, "Future[Compiled]"]  # by id, steps whose compiler was started before
+@dataclass(frozen=True)
+class CompiledAhead:
+    """Steps whose compiler was started before anybody asked for them, by id, and where it runs."""
+
+    steps: Mapping[str, "Future[Compiled]"] = field(default_factory=dict)
+    sandbox: AccountingSandbox | None = None
+
+    @property
+    def cpu_seconds(self) -> float:
+        """What that took so far."""
+        return 0.0 if self.sandbox is None else self.sandbox.cpu_seconds
+
+
+NOTHING_AHEAD = CompiledAhead()
 
 
 @dataclass(frozen=True)
