@@ -83,7 +83,7 @@ class Direct:
             stack.callback(process.kill)
             if wire is not None:
                 wire.hand_over()
-            seen = monitor(process, start, limits, _Group(process), wire)
+            seen = monitor(process, start, replace(task, limits=limits), _Group(process), wire)
             out, err = (data.decode("utf-8", "replace") for data in (seen.stdout, seen.stderr))
             code = -signal.SIGKILL if seen.stopped else seen.status
             outcome = Outcome(code, seen.stopped == "wall", out, err, seen.seconds)

@@ -68,6 +68,8 @@ def test_no_step_waits_for_a_processor_that_is_busy_with_another(
     sandbox = _Meeting("worker", "worker", "worker")
     results = grade_submission(kit.in_one_process(), submission, Settings(only=chosen), sandbox, tmp_path, jobs=4)
     assert [result.status for result in results.steps] == ["passed"] * 3
+    together = results.steps[1].cumulative
+    assert together.message == "The reference stood in for 02-intersection: not graded in this run."
 
 
 def test_what_is_compiled_ahead_is_not_compiled_again(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:

@@ -62,7 +62,8 @@ def test_who_runs_into_limits_is_not_waited_for(steps: list[Step], tmp_path: Pat
     kit = cast(BuiltKit, None)  # nobody asks for the reference's pictures
     sandbox, limits, program = Eating(), limits_of(steps[0], {"seconds": 8.0}), Program(("tests",))
     said: list[str] = []
-    results = run_tests(sandbox, program, [f"test {number}" for number in range(20)], limits, said.append)
+    tests = {f"test {number}": ["build"] for number in range(20)}
+    results = run_tests(sandbox, program, tests, limits, said.append)
     assert said == [
         "the tests were stopped; each runs by itself now",
         *(f"stopped: test {number}" for number in range(6)),
@@ -80,6 +81,32 @@ def test_who_runs_into_limits_is_not_waited_for(steps: list[Step], tmp_path: Pat
     for _ in range(4):
         gallery.render(program, tmp_path / "scene.nff", ())
     assert sandbox.seconds[before:] == [8, 8, 2, 2]
+
+
+def test_what_hangs_takes_no_tests_from_functions_that_do_not(steps: list[Step]) -> None:
+    """Of each other function one test is waited for at most."""
+    tests = {f"{name} {number}": [name] for name in ("slow", "right", "slow too") for number in range(8)}
+
+    class Running:
+        isolation = Isolation()
+
+        def __init__(self) -> None:
+            self.ran: list[str] = []
+
+        def run(self, task: Task) -> TaskResult:
+            self.ran.append(str(task.command[-1]))
+            if self.ran[-1].startswith("right"):
+                passed = f'<TestCase name="{self.ran[-1]}"><OverallResult success="true"/></TestCase>'
+                totals = '<OverallResultsCases successes="1" failures="0"/>'
+                report = f"<Catch2TestRun>{passed}{totals}</Catch2TestRun>".encode()
+                return TaskResult(Outcome(0, False, "", "", 0.1), {"report": report}, 0.1, "")
+            return TaskResult(Outcome(-9, False, "", "", 7.0), {}, 7.0, "cpu")
+
+    sandbox = Running()
+    results = run_tests(sandbox, Program(("tests",)), tests, limits_of(steps[0], {"seconds": 8.0}))
+    assert [result.name for result in results if result.passed] == [f"right {number}" for number in range(8)]
+    waited_for = [name for name in sandbox.ran[1:] if name.startswith("slow")]
+    assert waited_for == [*(f"slow {number}" for number in range(6)), "slow too 0"]
 
 
 @pytest.mark.parametrize("why", ["wall", "cpu"])

@@ -73,6 +73,17 @@ def test_what_the_last_check_said(course: Project, steps: list[Step]) -> None:
     assert _next(course) == "02"
 
 
+def test_next_says_that_a_step_does_not_build(course: Project, steps: list[Step]) -> None:
+    _check(course, steps[0], "does-not-build", 0)
+    console = printed()
+    next_step(course, console)
+    assert "(it does not build: ./raysteps check 01 shows where)" in text(console)
+    write_own(course, steps[0], _CODE + "int more;\n")
+    console = printed()
+    next_step(course, console)
+    assert "it does not build" not in text(console)
+
+
 def test_a_changed_file_is_not_what_was_checked(course: Project, steps: list[Step]) -> None:
     _check(course, steps[0], "passed", 10)
     write_own(course, steps[0], "// a remark\n" + _CODE)

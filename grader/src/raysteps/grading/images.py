@@ -1,6 +1,6 @@
 """The pictures of a step, made with the student's code and compared."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -185,10 +185,11 @@ def _beside_no_tree(
 
 
 def grade_integration(
-    gallery: ImageGrader, program: Program, step: Step, own: Sequence[Step], replaced: Sequence[str]
+    gallery: ImageGrader, program: Program, step: Step, own: Sequence[Step], replaced: Mapping[str, Sequence[str]]
 ) -> Integration:
     """The step's first picture with the student's steps up to this one, `own`; `replaced` are the reference's among
-    them. Each step may differ by as much as its own pictures may, and in one picture the differences add up."""
+    them, by why they are. Each step may differ by as much as its own pictures may, and in one picture the differences
+    add up."""
     case = step.images[0]
     scene = gallery.kit.project.root / case.scene
     rendered = gallery.render(program, scene, case.args, noisy=case.max_noise is not None)
@@ -198,9 +199,5 @@ def grade_integration(
     verdict = judge_picture(gallery.kit, scene, replace(case, max_wrong=most_wrong), rendered)
     if not verdict.passed:
         return Integration(False, f"{case.name}: {verdict.message}")
-    why = (
-        f"The reference stood in for {join_and(replaced)}: not graded in this run, or not right yet."
-        if replaced
-        else ""
-    )
-    return Integration(True, why)
+    whom = [f"for {join_and(steps)}: {why}" for why, steps in replaced.items() if steps]
+    return Integration(True, f"The reference stood in {', and '.join(whom)}." if whom else "")

@@ -251,7 +251,7 @@ class HiddenStepGrader(StepGrader):
         own = [test for test in self._result.tests if not set(tests[test.name]) & set(self._unfinished)]
         if all(test.passed for test in own):
             return
-        again = {test.name: test for test in run_tests(self._work.sandbox, program, list(tests), self._limits)}
+        again = {test.name: test for test in run_tests(self._work.sandbox, program, tests, self._limits)}
         own_names = {test.name for test in own}
         self._result.tests = [
             replace(again[test.name], weight=test.weight) if test.name in own_names else test
@@ -341,8 +341,13 @@ class HiddenStepGrader(StepGrader):
                 if program is None:
                     self._result.cumulative = Integration(False, why)
                 else:
-                    own, others = [one for one in (*earlier, step) if one not in replaced], [one.id for one in replaced]
+                    own = [one for one in (*earlier, step) if one not in replaced]
                     self._wait_for(own)
+                    only = self._settings.only
+                    others = {
+                        "not graded in this run": [one.id for one in replaced if only and one.id not in only],
+                        "not right yet": [one.id for one in replaced if not only or one.id in only],
+                    }
                     self._result.cumulative = grade_integration(self._gallery, program, step, own, others)
                 self._result.status, self._result.points = status_and_points(self._result, step)
         return self._result
@@ -410,7 +415,11 @@ def grade_submission(
         folder = ends.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True))
         work = GradingContext(kit, submission, counted, Path(folder), out, say, ahead=ahead)
         spare = SpareProcessors(jobs - len(chosen), ends)
-        with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
+        with (
+            ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
+            counted.until_interrupted(),
+            apart.until_interrupted(),
+        ):
             say("building the steps")
             spare.make_questions(work, chosen, settings.seed)
             compiled = compile_steps(work, chosen, pool, settings.limits)

@@ -88,7 +88,7 @@ class QuickLook:
             return result
         gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
-        result.tests = run_tests(self.sandbox, tests, list(self.kit.tests[self.step.id]), limits)
+        result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits)
         gallery.stopped_in(result.tests)
         set_aside(result, self.step, self.kit.tests[self.step.id], source)
         self.tell(result)

@@ -82,7 +82,7 @@ def sum_up(result: StepResult) -> list[str]:
     if waiting:
         passed = sum(test.passed for test in result.tests)
         right = "" if messages or not passed else f" All that is written is right: {count(passed, 'test')} passed."
-        messages.append(f"What waits for it: {join_and(waiting)}.{right}")
+        messages.append(f"Waiting for that: {join_and(waiting)}.{right}")
     outcomes = [(item.outcome, item.message) for items in (result.tests, result.images) for item in items]
     bad = [message for outcome, message in outcomes if outcome in ("crashed", "timeout")]
     return messages + bad[:1]

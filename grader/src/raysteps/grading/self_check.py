@@ -162,13 +162,13 @@ def blame(work: GradingContext, step: Step, found: Mapping[str, StepResult]) -> 
 
 
 def _check(
-    work: GradingContext, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]
+    work: GradingContext, counted: AccountingSandbox, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]
 ) -> tuple[dict[str, StepResult], list[SelfCheckGrader]]:
     """The chosen steps, and what checked them; the others only where something is wrong that they may have caused, and
     out of sight."""
     found: dict[str, StepResult] = {}
     graders: list[SelfCheckGrader] = []
-    with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool:
+    with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool, counted.until_interrupted():
         work.say("building the steps")
         compiled = compile_steps(work, list(steps), pool, {})
 
@@ -207,7 +207,7 @@ def self_check(
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
         work = GradingContext(kit, submission, counted, Path(folder), out, say, own_libraries(kit), ahead)
         steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
-        found, graders = _check(work, steps, jobs, chosen)
+        found, graders = _check(work, counted, steps, jobs, chosen)
         asked = [found[step.id] for step in chosen]
         name_crash(kit, submission, sandbox, say, asked)
         timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds + ahead.cpu_seconds, 2))

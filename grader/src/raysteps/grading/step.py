@@ -169,7 +169,7 @@ class StepGrader:
         def say(text: str) -> None:
             self._work.say(f"{self.step.id}: {text}")
 
-        self._result.tests = run_tests(self._work.sandbox, program, list(tests), self._limits, say)
+        self._result.tests = run_tests(self._work.sandbox, program, tests, self._limits, say)
         weights = test_weights(self.step, tests, self._unfinished)
         for test in self._result.tests:
             test.weight = weights[test.name]

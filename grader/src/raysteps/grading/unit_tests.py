@@ -84,28 +84,32 @@ def _why_cut_short(ran: TaskResult) -> str:
 def run_tests(
     sandbox: Sandbox,
     program: Program,
-    names: Sequence[str],
+    tests: Mapping[str, Sequence[str]],
     limits: StepLimits,
     say: Callable[[str], None] = lambda text: None,
 ) -> list[TestResult]:
-    """All test cases in one process; when that ends badly, each in a process of its own. `say` hears of waits."""
+    """All test cases, each with the functions that it tests, in one process; when that ends badly, each in a process of
+    its own. After some that were stopped, only those of functions that were not among these are run. `say` hears of
+    waits."""
     ran = _run(sandbox, program, limits, limits.seconds)
-    together = _complete(ran, names)
+    together = _complete(ran, tests)
     if ran.was_stopped:
         say("the tests were stopped; each runs by itself now")
     limits = limits.after_a_stop() if ran.was_stopped else limits
     if together is not None:
         found = {case.name: _result(case) for case in together}
-        return [found[name] for name in names]
+        return [found[name] for name in tests]
     results: list[TestResult] = []
-    for name in names:
-        if sum(map(was_stopped, results)) >= _MAX_STOPS:
+    hung: set[str] = set()  # functions
+    for name, functions in tests.items():
+        if sum(map(was_stopped, results)) >= _MAX_STOPS and hung.issuperset(functions):
             results.append(TestResult(name, False, _NOT_RUN, outcome="timeout"))
-        else:
-            results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
-            if was_stopped(results[-1]):
-                limits = limits.after_a_stop()
-                say(f"stopped: {name}")
+            continue
+        results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
+        if was_stopped(results[-1]):
+            hung.update(functions)
+            limits = limits.after_a_stop()
+            say(f"stopped: {name}")
     return results
 
 

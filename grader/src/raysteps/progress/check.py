@@ -32,6 +32,7 @@ def _compiled_ahead(kit: BuiltKit, submission: Submission, chosen: list[Step], e
     pool = ends.enter_context(ThreadPoolExecutor(os.cpu_count()))
     ends.callback(pool.shutdown, wait=False, cancel_futures=True)
     sandbox = AccountingSandbox(LimitsOnly())
+    ends.enter_context(sandbox.until_interrupted())
     build = StudentBuild(kit, sandbox, Path(folder), None if kit.has_reference else own_libraries(kit))
     sources = {step: begun_source(kit.project, step, submission.sources.get(step.id)) for step in chosen}
     begun = {

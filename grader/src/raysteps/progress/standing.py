@@ -246,6 +246,8 @@ def _to_type(standing: Standing) -> str:
 
 def _to_write(standing: Standing) -> str:
     left = standing.unfinished
+    if standing.kind == "checked" and standing.last is not None and standing.last.status == "does-not-build":
+        return f" (it does not build: {own_command()} check {standing.step.number} shows where)"
     return f" ({join_and(left)} {'is' if len(left) == 1 else 'are'} still to be written)" if left else ""
 
 

@@ -264,7 +264,7 @@ class Bubblewrap:
                 group.join(first)
             self._limit_processes(first, task.limits)
             control.open_gate()
-            seen = monitor(process, start, task.limits, running, wire)
+            seen = monitor(process, start, task, running, wire)
             # What the kernel ended with its namespace, nobody waited for; there the last look has to do.
             cpu = max(seen.cpu_seconds + running.reap(), seen.watched_cpu_seconds)
             code = control.exit_code()

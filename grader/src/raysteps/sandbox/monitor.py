@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import IO, Any, Protocol, Self
 
 from raysteps.sandbox.beside import Wire
-from raysteps.sandbox.task import LimitHit, Limits
+from raysteps.sandbox.task import LimitHit, Limits, Task
 
 # What the processes of a task use, as /proc tells it.
 
@@ -175,8 +175,10 @@ class _Watch:
         limits: Limits,
         watched: MonitoredTask,
         wire: Wire | None,
+        abandoned: threading.Event,
     ) -> None:
         self._process = process
+        self._abandoned = abandoned
         self._start = start
         self._limits = limits
         self._finished = None if wire is None else wire.finished
@@ -214,7 +216,7 @@ class _Watch:
 
     def _look(self, now: float, last: float) -> None:
         why = self._measure()
-        if now > last:
+        if now > last or self._abandoned.is_set():
             self._stop("wall")
         elif why:
             self._stop(why)
@@ -273,7 +275,8 @@ class _Watch:
 
 
 def monitor(
-    process: StartedProcess, start: float, limits: Limits, watched: MonitoredTask, wire: Wire | None = None
+    process: StartedProcess, start: float, task: Task, watched: MonitoredTask, wire: Wire | None = None
 ) -> MonitorReport:
-    """Stays until the process has ended and everything that belongs to it was killed. Nobody else may wait for it."""
-    return _Watch(process, start, limits, watched, wire)()
+    """Stays until the process of the task has ended and everything that belongs to it was killed. Nobody else may wait
+    for it."""
+    return _Watch(process, start, task.limits, watched, wire, task.abandoned)()

@@ -142,7 +142,7 @@ class SupervisedSandbox:
         stack.callback(process.kill)
         if wire is not None:
             wire.hand_over()
-        seen = monitor(process, start, task.limits, _Family(process), wire)
+        seen = monitor(process, start, task, _Family(process), wire)
         said = os.read(status, 64) if readable(status, 0) else b""
         cpu = max(seen.cpu_seconds, seen.watched_cpu_seconds)
         outcome = _outcome(seen, said)

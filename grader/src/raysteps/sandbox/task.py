@@ -5,7 +5,8 @@ import os
 import stat
 import threading
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal, Protocol
 
@@ -92,6 +93,7 @@ class Task:
     inputs: tuple[Input, ...] = ()  # readable, but not named in the command
     stdin: bytes = b""
     beside: Beside | None = None  # then it has no stdin and no stdout but the wire
+    abandoned: threading.Event = field(default_factory=threading.Event, compare=False)  # ends it like a limit
 
     def all_inputs(self) -> Iterator[Input]:
         """Each once, those of the command first."""
@@ -174,11 +176,21 @@ class AccountingSandbox:
         self._sandbox = sandbox
         self._lock = threading.Lock()
         self._left = seconds
+        self._abandoned = threading.Event()
         self.cpu_seconds = 0.0
+
+    @contextmanager
+    def until_interrupted(self) -> Iterator[None]:
+        """When who waits is interrupted, ends what runs and runs nothing more: threads that are at it end soon."""
+        try:
+            yield
+        except KeyboardInterrupt:
+            self._abandoned.set()
+            raise
 
     @property
     def is_spent(self) -> bool:
-        return self._left <= 0
+        return self._left <= 0 or self._abandoned.is_set()
 
     @property
     def isolation(self) -> Isolation:
@@ -189,7 +201,7 @@ class AccountingSandbox:
         if self.is_spent:
             return _NOT_RUN
         limits = replace(task.limits, wall_seconds=min(task.limits.wall_seconds, self._left))
-        ran = self._sandbox.run(replace(task, limits=limits))
+        ran = self._sandbox.run(replace(task, limits=limits, abandoned=self._abandoned))
         with self._lock:
             self.cpu_seconds += ran.cpu_seconds
             self._left -= ran.outcome.seconds

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome, PipeReader, kill_process_group, new_session
-from raysteps.sandbox.task import Input, Isolation, LimitHit, Limits, Task, TaskResult
+from raysteps.sandbox.task import Input, Isolation, LimitHit, Task, TaskResult
 from raysteps.sandbox.task_dir import PathMap
 
 # A job of Windows: processes that are limited, measured and ended together.
@@ -144,7 +144,7 @@ class UnsupervisedSandbox:
             job.take_in(int(getattr(process, "_handle", 0)))
             pipes = [PipeReader(pipe, limits.output_kb * 1024) for pipe in (process.stdout, process.stderr)]
             try:
-                stopped = _wait(process, job, start, limits)
+                stopped = _wait(process, job, start, task)
                 seconds = time.monotonic() - start
             finally:
                 job.end()
@@ -159,14 +159,15 @@ class UnsupervisedSandbox:
             )
 
 
-def _wait(process: "subprocess.Popen[bytes]", job: Job, start: float, limits: Limits) -> LimitHit:
+def _wait(process: "subprocess.Popen[bytes]", job: Job, start: float, task: Task) -> LimitHit:
     """Until the process has ended, or has used up what it may use."""
+    limits = task.limits
     while True:
         left = start + limits.wall_seconds - time.monotonic()
         try:
             process.wait(min(_LOOK_EVERY, max(0.0, left)))
         except subprocess.TimeoutExpired:
-            if left <= 0:
+            if left <= 0 or task.abandoned.is_set():
                 return "wall"
             if job.cpu_seconds() > limits.cpu_seconds:
                 return "cpu"
