@@ -4,11 +4,19 @@ import os
 import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
 
 import pytest
 from conftest import Sources
+from watch_fakes import is_running, wait_for
 
+from raysteps.common.process import Outcome
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.monitor import descendants
+from raysteps.sandbox.task import AccountingSandbox, Task, TaskResult
+from raysteps.toolchain.compile import CompiledAhead, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _PATIENCE = 300.0  # seconds; the program that hangs may take two thousand
@@ -54,10 +62,18 @@ def test_what_hangs_is_ended(kit: BuiltKit, solved: Sources, tmp_path: Path, whi
     temporary.mkdir()
     words: list[str | Path] = [sys.executable, "-P", "-c", _SCRIPT, kit.project.root, source, tmp_path / "out", which]
     environment = os.environ | {"TMPDIR": str(temporary)}
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment) as process:
+    with subprocess.Popen(
+        words,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=environment,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # where the tests run in the background
+    ) as process:
         assert process.stdout is not None
         told = process.stdout.readline()
-        process.send_signal(signal.SIGINT)
+        started = descendants(process.pid) - {process.pid}
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
         try:
             _, said = process.communicate(timeout=_PATIENCE)
         finally:
@@ -65,3 +81,27 @@ def test_what_hangs_is_ended(kit: BuiltKit, solved: Sources, tmp_path: Path, whi
     assert told == b"it runs\n", said.decode()
     assert said.rstrip().endswith(b"KeyboardInterrupt"), said.decode()
     assert list(temporary.iterdir()) == []
+    wait_for(lambda: not any(map(is_running, started)))
+
+
+def test_so_is_a_compiler_that_was_started_ahead(kit: BuiltKit, tmp_path: Path) -> None:
+    """Where the steps wait for it, and whoever waits for the steps is interrupted."""
+    step, runs = kit.steps[0], Event()
+
+    class Compiler:
+        isolation = LimitsOnly.isolation
+
+        def run(self, task: Task) -> TaskResult:
+            runs.set()
+            assert task.abandoned.wait(_PATIENCE)
+            return TaskResult(Outcome(-9, True, "", "", 1.0), {}, 1.0, "wall")
+
+    counted = AccountingSandbox(Compiler())
+    with ThreadPoolExecutor(1) as pool:
+        build = StudentBuild(kit, counted, tmp_path)
+        compiled = pool.submit(build.compile, step, b"int one;", kit.limits_of(step))
+        assert runs.wait(_PATIENCE)
+        with pytest.raises(KeyboardInterrupt), CompiledAhead({step.id: compiled}, counted).until_interrupted():
+            raise KeyboardInterrupt
+        with pytest.raises(KeyboardInterrupt):
+            compiled.result()

@@ -14,7 +14,7 @@ from raysteps.judge.hidden_tests import make_all_cases
 from raysteps.results.model import StepResult
 from raysteps.results.settings import Settings
 from raysteps.sandbox.limits_only import LimitsOnly
-from raysteps.sandbox.task import Input, Sandbox, Task, TaskResult
+from raysteps.sandbox.task import AccountingSandbox, Input, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import Compiled, CompiledAhead, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -86,9 +86,12 @@ def test_what_is_compiled_ahead_is_not_compiled_again(kit: BuiltKit, solved: Sou
     compiled: Future[Compiled] = Future()
     compiled.set_result(StudentBuild(whole, LimitsOnly(), tmp_path).compile(step, source, kit.limits_of(step)))
     submission, settings = Submission("jo", {STEP: source}, {}), Settings(only=(STEP,))
-    results = grade_submission(
-        whole, submission, settings, NoCompiler(), tmp_path / "out", ahead=CompiledAhead({STEP: compiled})
-    )
+    counted = AccountingSandbox(LimitsOnly())
+    counted.cpu_seconds = 100.0
+    ahead = CompiledAhead({STEP: compiled}, counted)
+    results = grade_submission(whole, submission, settings, NoCompiler(), tmp_path / "out", ahead=ahead)
+    assert results.timing is not None
+    assert results.timing.cpu_seconds > 100.0
     assert results.steps[0].status == "passed"
 
 

@@ -142,20 +142,32 @@ def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: P
 
 _NO_COMPILER = """
 import sys
+from pathlib import Path
+from types import SimpleNamespace
+
 from raysteps.cli import app
+from raysteps.course.project import Project
 from raysteps.progress import check
 
 def stop(*_):
     print(*sys.modules)
     sys.exit(0)
 
+project = Project(Path(sys.argv[1]))
+kit = SimpleNamespace(steps=[])
+kit.in_one_process = lambda: kit
+app.here = lambda: project
+check.build_kit = lambda *_: kit
+check.load_submission = lambda *_: None
 check._compiled_ahead = stop
-app.main(["check", "01"])
+sys.exit(app.main(["check", "01"]))
 """
 
 
-def test_the_compiler_is_started_before_what_grades_is_imported(kit: BuiltKit) -> None:
-    done = subprocess.run([sys.executable, "-P", "-c", _NO_COMPILER], capture_output=True, text=True, check=True)
+def test_the_compiler_is_started_before_what_grades_is_imported(tmp_path: Path) -> None:
+    words: list[str | Path] = [sys.executable, "-P", "-c", _NO_COMPILER, small_project(tmp_path).root]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
     there = set(done.stdout.split())
     assert "raysteps.toolchain.compile" in there
     assert {"numpy", "jinja2", "raysteps.grading.step"}.isdisjoint(there)
@@ -171,8 +183,7 @@ def test_what_is_compiled_ahead(
 
     class Build:
         def __init__(self, _kit: object, sandbox: Sandbox, _folder: Path, kept: object) -> None:
-            built["kept"] = kept
-            self._sandbox = sandbox
+            built.update(kept=kept, sandbox=sandbox)
 
         def compile(self, step: Step, source: bytes, _limits: object) -> str:
             return f"{step.number}: {len(source)}"
@@ -188,3 +199,4 @@ def test_what_is_compiled_ahead(
         told: dict[str, Any] = {step: future.result() for step, future in ahead.steps.items()}
     assert told == {one.id: f"01: {len(sources[one.id])}"}
     assert (built["kept"] is None) == has_reference
+    assert built["sandbox"] is ahead.sandbox, "what it takes is counted"

@@ -63,7 +63,7 @@ class SpareProcessors:
             ends.callback(self._pool.shutdown, wait=False, cancel_futures=True)
 
     def start(self, work: Callable[[], _T]) -> "Future[_T] | None":
-        """None where no processor is spare. Whoever cannot wait for one cancels the future, and does the work."""
+        """None where no processor is spare. Whoever cannot wait cancels the future, and does the work itself."""
         return None if self._pool is None else self._pool.submit(work)
 
     def make_questions(self, work: GradingContext, chosen: Sequence[Step], seed: int) -> None:
@@ -419,6 +419,7 @@ def grade_submission(
             ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
             counted.until_interrupted(),
             apart.until_interrupted(),
+            ahead.until_interrupted(),
         ):
             say("building the steps")
             spare.make_questions(work, chosen, settings.seed)

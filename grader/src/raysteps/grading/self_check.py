@@ -117,9 +117,10 @@ def name_crash(
     say(f"{step.id} {'crashed' if has_crashed(tests[step.id][0]) else 'did not end'}: looking for the line")
     alone, limits = kit.has_reference, kit.limits_of(step)
     with suppress(RaystepsError, OSError), tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        work = GradingContext(kit.sanitized(), submission, sandbox, Path(folder), Path(folder))
+        counted = AccountingSandbox(sandbox)
+        work = GradingContext(kit.sanitized(), submission, counted, Path(folder), Path(folder))
         sources = [*([] if alone else earlier(step, kit.steps)), step]
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
+        with ThreadPoolExecutor(os.cpu_count()) as pool, counted.until_interrupted():
             compiled = compile_steps(work, sources, pool, {})
         binary = compiled[step.id].binary
         if binary is not None:
@@ -168,7 +169,11 @@ def _check(
     out of sight."""
     found: dict[str, StepResult] = {}
     graders: list[SelfCheckGrader] = []
-    with ThreadPoolExecutor(max_workers=max(1, jobs)) as pool, counted.until_interrupted():
+    with (
+        ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
+        counted.until_interrupted(),
+        work.ahead.until_interrupted(),
+    ):
         work.say("building the steps")
         compiled = compile_steps(work, list(steps), pool, {})
 

@@ -17,11 +17,14 @@ from raysteps.toolchain.catch2 import THREW, TestOutcome, parse_report
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
-_MAX_STOPS = 6  # tests that are waited for; a clock would say something else each time
+_MAX_STOPS = 6  # tests that are waited for, besides those of functions that were not among them
 _TOO_MUCH_MEMORY = (
     "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
 )
-_NOT_RUN = f"This test was not run: {_MAX_STOPS} tests before it ran out of time or memory."
+_NOT_RUN = (
+    f"This test was not run: {_MAX_STOPS} tests or more before it ran out of time or memory, one of the same function "
+    "among them."
+)
 FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
@@ -100,14 +103,14 @@ def run_tests(
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in tests]
     results: list[TestResult] = []
-    hung: set[str] = set()  # functions
+    hung: list[set[str]] = []  # the functions of each test that was stopped
     for name, functions in tests.items():
-        if sum(map(was_stopped, results)) >= _MAX_STOPS and hung.issuperset(functions):
+        if sum(map(was_stopped, results)) >= _MAX_STOPS and any(one.issuperset(functions) for one in hung):
             results.append(TestResult(name, False, _NOT_RUN, outcome="timeout"))
             continue
         results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
         if was_stopped(results[-1]):
-            hung.update(functions)
+            hung.append(set(functions))
             limits = limits.after_a_stop()
             say(f"stopped: {name}")
     return results

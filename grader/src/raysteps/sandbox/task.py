@@ -93,7 +93,9 @@ class Task:
     inputs: tuple[Input, ...] = ()  # readable, but not named in the command
     stdin: bytes = b""
     beside: Beside | None = None  # then it has no stdin and no stdout but the wire
-    abandoned: threading.Event = field(default_factory=threading.Event, compare=False)  # ends it like a limit
+    abandoned: threading.Event = field(
+        default_factory=threading.Event, compare=False
+    )  # once set, ends the task as a limit does
 
     def all_inputs(self) -> Iterator[Input]:
         """Each once, those of the command first."""
@@ -181,7 +183,7 @@ class AccountingSandbox:
 
     @contextmanager
     def until_interrupted(self) -> Iterator[None]:
-        """When who waits is interrupted, ends what runs and runs nothing more: threads that are at it end soon."""
+        """When whoever waits is interrupted, ends what runs: threads that run something are interrupted, too."""
         try:
             yield
         except KeyboardInterrupt:
@@ -190,19 +192,25 @@ class AccountingSandbox:
 
     @property
     def is_spent(self) -> bool:
-        return self._left <= 0 or self._abandoned.is_set()
+        return self._left <= 0
 
     @property
     def isolation(self) -> Isolation:
         return self._sandbox.isolation
 
     def run(self, task: Task) -> TaskResult:
-        """Runs the task in the sandbox."""
+        """Runs the task in the sandbox. Raises KeyboardInterrupt where nobody waits for it any more."""
+        self._go_on()
         if self.is_spent:
             return _NOT_RUN
         limits = replace(task.limits, wall_seconds=min(task.limits.wall_seconds, self._left))
         ran = self._sandbox.run(replace(task, limits=limits, abandoned=self._abandoned))
+        self._go_on()
         with self._lock:
             self.cpu_seconds += ran.cpu_seconds
             self._left -= ran.outcome.seconds
         return _as_limited(ran, limits)
+
+    def _go_on(self) -> None:
+        if self._abandoned.is_set():
+            raise KeyboardInterrupt

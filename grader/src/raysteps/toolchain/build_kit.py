@@ -335,9 +335,13 @@ def _load(project: Project, steps: list[Step], folder: Path) -> BuiltKit:
 
 def _forget_old(kits: Path) -> None:
     """Keeps the kits that were used last, and those that may be in use."""
-    built = sorted((kit for kit in kits.iterdir() if _is_built(kit)), key=lambda kit: kit.stat().st_mtime)
-    for kit in built[:-_KEPT]:
-        if time.time() - kit.stat().st_mtime > _IN_USE_SECONDS:
+    built = []
+    for kit in kits.iterdir():
+        with suppress(FileNotFoundError):  # another process may forget it, too
+            if _is_built(kit):
+                built.append((kit.stat().st_mtime, kit))
+    for used, kit in sorted(built)[:-_KEPT]:
+        if time.time() - used > _IN_USE_SECONDS:
             shutil.rmtree(kit, ignore_errors=True)
 
 

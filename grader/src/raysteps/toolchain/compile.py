@@ -4,7 +4,7 @@ import os
 import re
 from collections.abc import Mapping
 from concurrent.futures import Future
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -148,6 +148,10 @@ class CompiledAhead:
     def cpu_seconds(self) -> float:
         """What that took so far."""
         return 0.0 if self.sandbox is None else self.sandbox.cpu_seconds
+
+    def until_interrupted(self) -> AbstractContextManager[None]:
+        """See AccountingSandbox."""
+        return nullcontext() if self.sandbox is None else self.sandbox.until_interrupted()
 
 
 NOTHING_AHEAD = CompiledAhead()
