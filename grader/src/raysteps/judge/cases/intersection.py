@@ -1,17 +1,217 @@
-"""Cases of step 02: the closest of several hits; triangles and spheres have modules of their own."""
+"""Cases of step 02: rays and triangles, rays and spheres, and the closest of several hits."""
 
-from raysteps.common.vectors import add, cross, times, unit
-from raysteps.judge.cases.triangles import SIZES, TRIANGLE_INTERSECT, close_by
+from raysteps.common.vectors import Vector, add, cross, length, minus, times, unit
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import FOUND, HIT
 from raysteps.judge.protocol import Inputs, Ray, rounded
 from raysteps.judge.random_source import RandomSource, next_axis, with_zeros
-from raysteps.judge.surfaces import Scripted, Sphere, Surfaces
+from raysteps.judge.surfaces import Scripted, Sphere, Surfaces, Triangle
 
-# Cases of step 02: rays and spheres.
+# Rays that are aimed at a triangle or beside it.
+
+_SIZES = (0.002, 1000.0)  # of a triangle's longest edge and of a sphere's radius
+_NEAREST = 3e-4  # a hit nearer than 1e-4 may be left out
+_NEAR = 9e-4  # a threshold of 1e-3, which many programs have here, leaves out what is nearer
+_STEEP = 0.2  # least cosine between ray and normal: seen edge-on, rounding may decide
 
 
-def _case(s: Sphere, ray: Ray, draw: RandomSource) -> Inputs:
+def _triangle_case(t: Triangle, ray: Ray, draw: RandomSource) -> Inputs:
+    return {"triangle": Triangle(t.a, t.b, t.c, draw.fill()), "ray": ray}
+
+
+def _normal_of(t: Triangle) -> Vector:
+    return unit(cross(minus(t.b, t.a), minus(t.c, t.a)))
+
+
+def _inside(draw: RandomSource, t: Triangle) -> Vector:
+    """Well within the edges."""
+    u = draw.real(0.08, 0.8)
+    return t.at(u, draw.real(0.08, 0.92 - u))
+
+
+def _beside(draw: RandomSource, t: Triangle) -> Vector:
+    """A little outside of one edge, between its ends."""
+    out, along = -draw.real(0.05, 0.3), draw.real(0.1, 0.9)
+    corners = [(out, along), (along, out), (along - out, 1 - along)]
+    return t.at(*corners[draw.whole(0, 2)])
+
+
+def _towards(draw: RandomSource, t: Triangle, point: Vector, side: float, distance: float) -> Ray:
+    """Comes from the triangle's front (side 1) or back (side -1)."""
+    direction = times(-1.0, draw.above(times(side, _normal_of(t)), _STEEP))
+    return Ray(rounded(add(point, direction, -distance)), rounded(direction))
+
+
+# Triangles in planes of the axes, where all numbers are exact.
+
+
+def _flat_triangle(draw: RandomSource, legs: tuple[int, ...] = (1, 2, 3, 4)) -> tuple[Triangle, int]:
+    """In a plane of two axes, with a right angle between two of these legs; and the number of the third axis."""
+    axis, corner = draw.whole(0, 2), draw.simple_point(4)
+    sizes = [draw.sign() * legs[draw.whole(0, len(legs) - 1)] for _ in range(2)]
+
+    def moved(which: int, by: float) -> Vector:
+        moves = [0.0, 0.0, 0.0]
+        moves[(axis + which) % 3] = by
+        return add(corner, (moves[0], moves[1], moves[2]))
+
+    return Triangle(corner, moved(1, sizes[0]), moved(2, sizes[1])), axis
+
+
+def _along_axis(axis: int, sign: float) -> Vector:
+    return (sign * (axis == 0) + 0.0, sign * (axis == 1) + 0.0, sign * (axis == 2) + 0.0)
+
+
+def _simple_triangle(draw: RandomSource) -> Inputs:
+    t, axis = _flat_triangle(draw)
+    direction = _along_axis(axis, draw.sign())
+    return _triangle_case(t, Ray(add(t.at(0.25, 0.375), direction, -float(draw.whole(1, 6))), direction), draw)
+
+
+def _in_plane(draw: RandomSource) -> Inputs:
+    """Along the plane, in it or beside it: numbers for which n . d is exactly 0."""
+    t, axis = _flat_triangle(draw)
+    along = _along_axis((axis + 1) % 3, draw.sign())
+    beside = _along_axis(axis, draw.whole(-1, 1) / 2)
+    return _triangle_case(t, Ray(add(add(t.at(0.25, 0.375), along, -8.0), beside), along), draw)
+
+
+def _on_triangle(draw: RandomSource) -> Inputs:
+    t, axis = _flat_triangle(draw)
+    return _triangle_case(t, Ray(t.at(0.25, 0.375), _along_axis(axis, draw.sign())), draw)
+
+
+def _on_edge(draw: RandomSource) -> Inputs:
+    """Exactly through an edge, and not near a corner. Every term is exact, so all methods must agree: a hit."""
+    t, axis = _flat_triangle(draw, legs=(1, 2, 4))
+    share = draw.whole(1, 3) / 4
+    corners = [(0.0, share), (share, 0.0), (share, 1 - share)]
+    direction = _along_axis(axis, draw.sign())
+    point = t.at(*corners[draw.whole(0, 2)])
+    return _triangle_case(t, Ray(add(point, direction, -float(draw.whole(1, 6))), direction), draw)
+
+
+def _triangle_signed_zeros(draw: RandomSource) -> Inputs:
+    """Straight at it or past it, along an axis; the zeros of the direction have either sign."""
+    t, axis = _flat_triangle(draw)
+    u, v = ((0.25, 0.375), (0.5, 0.25), (0.75, 0.75), (-0.25, 0.5))[draw.whole(0, 3)]
+    sign, distance = draw.sign(), float(draw.whole(1, 6))
+    direction = with_zeros(draw, axis, sign)
+    return _triangle_case(t, Ray(add(t.at(u, v), direction, -distance), direction), draw)
+
+
+def _at_edge(draw: RandomSource, t: Triangle) -> Vector:
+    """Within an edge or beyond it, by a little that float can tell; or so beside a corner."""
+    off, along = draw.real(0.005, 0.02) * draw.sign(), draw.real(0.1, 0.8)
+    points = [(off, along), (along, off), (along, 1 - along - off), (-abs(off), -abs(off)), (abs(off), abs(off))]
+    return t.at(*points[draw.whole(0, 4)])
+
+
+def _any_triangle(draw: RandomSource) -> Inputs:
+    t = draw.triangle()
+    point = _inside(draw, t) if draw.chance(0.7) else _beside(draw, t)
+    return _triangle_case(t, _towards(draw, t, point, draw.sign(), draw.real(1, 10)), draw)
+
+
+def _from_side(draw: RandomSource, side: float) -> Inputs:
+    t = draw.triangle()
+    return _triangle_case(t, _towards(draw, t, _inside(draw, t), side, draw.real(1, 10)), draw)
+
+
+def _beside_edge(draw: RandomSource) -> Inputs:
+    t = draw.triangle()
+    return _triangle_case(t, _towards(draw, t, _beside(draw, t), draw.sign(), draw.real(1, 10)), draw)
+
+
+def _triangle_behind(draw: RandomSource) -> Inputs:
+    t = draw.triangle()
+    return _triangle_case(t, _towards(draw, t, _inside(draw, t), draw.sign(), -draw.real(0.5, 10)), draw)
+
+
+def _small_triangle(draw: RandomSource) -> Inputs:
+    """Its area is tiny, and nothing else about it is: who compares it with a small number loses it."""
+    t = _of_size(draw, draw.logarithmic(_SIZES[0], 10 * _SIZES[0]), draw.point(1))
+    return _triangle_case(t, _towards(draw, t, _inside(draw, t), draw.sign(), draw.real(0.5, 1)), draw)
+
+
+def _of_size(draw: RandomSource, size: float, place: Vector) -> Triangle:
+    """No sliver; its longest edge is so long, and never shorter by rounding."""
+    shape = draw.triangle(1.0)
+    longest = max(length(minus(*pair)) for pair in ((shape.a, shape.b), (shape.b, shape.c), (shape.c, shape.a)))
+    a, b, c = (rounded(add(place, corner, 1.01 * size / longest)) for corner in (shape.a, shape.b, shape.c))
+    return Triangle(a, b, c)
+
+
+def _close_to_edge(draw: RandomSource) -> Inputs:
+    t = draw.triangle()
+    return _triangle_case(t, _towards(draw, t, _at_edge(draw, t), draw.sign(), draw.real(1, 5)), draw)
+
+
+def _sliver(draw: RandomSource) -> Inputs:
+    """Long and thin, hit well within or missed beside its long edge."""
+    a, along = draw.point(2), draw.direction()
+    side = unit(cross(along, draw.across(along)))
+    tip = add(add(a, along, draw.real(8, 20)), side, draw.real(-0.2, 0.2))
+    t = Triangle(a, rounded(tip), rounded(add(a, side, draw.real(0.1, 0.3))))
+    u = draw.real(0.2, 0.7)
+    v = draw.real(0.1, 0.9 - u) if draw.chance(0.7) else -draw.real(0.2, 1)
+    return _triangle_case(t, _towards(draw, t, t.at(u, v), draw.sign(), draw.real(1, 5)), draw)
+
+
+def _grazing(draw: RandomSource) -> Inputs:
+    t, side = draw.triangle(), draw.sign()
+    direction = times(-1.0, draw.above(times(side, _normal_of(t)), 0.02, 0.08))
+    return _triangle_case(t, Ray(rounded(add(_inside(draw, t), direction, -draw.real(1, 5))), rounded(direction)), draw)
+
+
+def _close_by(draw: RandomSource) -> float:
+    """How far before a surface, or behind it: half of them so near that a threshold leaves them out."""
+    return draw.logarithmic(_NEAREST, _NEAR if draw.chance(0.5) else 0.1) * draw.sign()
+
+
+def _close_to_triangle(draw: RandomSource) -> Inputs:
+    """Just before the triangle, or just behind it."""
+    t = draw.triangle(2.0)
+    return _triangle_case(t, _towards(draw, t, _inside(draw, t), draw.sign(), _close_by(draw)), draw)
+
+
+def _triangle_of_any_size(draw: RandomSource) -> Inputs:
+    """The distance goes with the size, and up to 10 000."""
+    size = draw.logarithmic(10 * _SIZES[0], _SIZES[1])
+    t = _of_size(draw, size, draw.point(min(size, 1.0)))
+    direction = times(-1.0, draw.above(times(draw.sign(), _normal_of(t)), 0.5))
+    distance = size * draw.logarithmic(0.1, 10)
+    return _triangle_case(t, Ray(rounded(add(_inside(draw, t), direction, -distance)), rounded(direction)), draw)
+
+
+TRIANGLE_INTERSECT = Function(
+    "Triangle::intersect",
+    HIT,
+    (
+        Group("hit or missed from any side", _any_triangle),
+        Group("simple numbers", _simple_triangle, exact=True),
+        Group("seen from the front", lambda d: _from_side(d, 1.0)),
+        Group("seen from behind", lambda d: _from_side(d, -1.0)),
+        Group("small triangles", _small_triangle),
+        Group("at a grazing angle", _grazing),
+        Group("of any size", _triangle_of_any_size),
+        Group("long and thin", _sliver),
+        Group("close to an edge", _close_to_edge),
+        Group("origin close to the triangle", _close_to_triangle),
+        Group("along an axis, with zeros of either sign", _triangle_signed_zeros, exact=True),
+        Group("on an edge", _on_edge, exact=True),
+        Group("beside an edge", _beside_edge),
+        Group("behind the origin", _triangle_behind),
+        Group("along the plane", _in_plane, exact=True),
+        Group("origin on the triangle", _on_triangle, exact=True),
+    ),
+)
+
+
+# Rays and spheres.
+
+
+def _sphere_case(s: Sphere, ray: Ray, draw: RandomSource) -> Inputs:
     return {"sphere": Sphere(s.center, s.radius, draw.fill()), "ray": ray}
 
 
@@ -26,23 +226,23 @@ def _at_sphere(draw: RandomSource, s: Sphere, low: float, high: float, distance:
 def _any_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere()
     low, high = (0.0, 0.9) if draw.chance(0.7) else (1.1, 2.0)
-    return _case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(1, 10)), draw)
+    return _sphere_case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(1, 10)), draw)
 
 
 def _inside_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere(high=20.0)
     origin = rounded(add(s.center, draw.direction(), s.radius * draw.real(0.0, 0.85)))
-    return _case(s, Ray(origin, draw.direction()), draw)
+    return _sphere_case(s, Ray(origin, draw.direction()), draw)
 
 
 def _sphere_behind(draw: RandomSource) -> Inputs:
     s = draw.sphere()
-    return _case(s, _at_sphere(draw, s, 0.0, 0.9, -(s.radius + draw.real(0.5, 10))), draw)
+    return _sphere_case(s, _at_sphere(draw, s, 0.0, 0.9, -(s.radius + draw.real(0.5, 10))), draw)
 
 
 def _beside_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere()
-    return _case(s, _at_sphere(draw, s, 1.05, 3.0, s.radius + draw.real(1, 10)), draw)
+    return _sphere_case(s, _at_sphere(draw, s, 1.05, 3.0, s.radius + draw.real(1, 10)), draw)
 
 
 def _simple_sphere(draw: RandomSource) -> Inputs:
@@ -51,25 +251,25 @@ def _simple_sphere(draw: RandomSource) -> Inputs:
     direction = draw.axis()
     start = add(center, direction, -float(draw.whole(6, 12)))
     if draw.chance(0.5):
-        return _case(Sphere(center, float(draw.whole(1, 5))), Ray(start, direction), draw)
+        return _sphere_case(Sphere(center, float(draw.whole(1, 5))), Ray(start, direction), draw)
     beside = next_axis(direction)
-    return _case(Sphere(center, 5.0), Ray(add(start, beside, 3.0), direction), draw)
+    return _sphere_case(Sphere(center, 5.0), Ray(add(start, beside, 3.0), direction), draw)
 
 
 def _from_center(draw: RandomSource) -> Inputs:
     s = Sphere(draw.simple_point(4), draw.eighths(1, 6))
-    return _case(s, Ray(s.center, draw.direction()), draw)
+    return _sphere_case(s, Ray(s.center, draw.direction()), draw)
 
 
 def _far_sphere(draw: RandomSource) -> Inputs:
     s = draw.sphere(low=0.6, high=1.2)
-    return _case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(15, 25)), draw)
+    return _sphere_case(s, _at_sphere(draw, s, 0.0, 0.7, draw.real(15, 25)), draw)
 
 
 def _nearly_tangent(draw: RandomSource) -> Inputs:
     s = draw.sphere(reach=3.0, low=1.0)
     low, high = (0.95, 0.985) if draw.chance(0.5) else (1.015, 1.05)
-    return _case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(0.5, 3)), draw)
+    return _sphere_case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(0.5, 3)), draw)
 
 
 def _exactly_tangent(draw: RandomSource) -> Inputs:
@@ -78,36 +278,36 @@ def _exactly_tangent(draw: RandomSource) -> Inputs:
     beside = times(draw.sign(), next_axis(direction))
     s = Sphere(draw.simple_point(4), float(draw.whole(1, 4)))
     start = add(add(s.center, direction, -float(draw.whole(5, 9))), beside, s.radius)
-    return _case(s, Ray(start, direction), draw)
+    return _sphere_case(s, Ray(start, direction), draw)
 
 
 def _close_origin(draw: RandomSource) -> Inputs:
     """Just outside the sphere or just inside, on the way in or out."""
     s = draw.sphere(reach=2.0, low=1.0)
-    outward, off = draw.direction(), close_by(draw)
+    outward, off = draw.direction(), _close_by(draw)
     direction = draw.above(times(draw.sign(), outward), 0.4)
-    return _case(s, Ray(rounded(add(s.center, outward, s.radius + off)), direction), draw)
+    return _sphere_case(s, Ray(rounded(add(s.center, outward, s.radius + off)), direction), draw)
 
 
 def _on_sphere(draw: RandomSource) -> Inputs:
     """One of the two distances is exactly 0, even for a method that divides by the radius."""
     outward = draw.axis()
     s = Sphere(draw.simple_point(4), float(2 ** draw.whole(-1, 2)))
-    return _case(s, Ray(add(s.center, outward, s.radius), times(draw.sign(), outward)), draw)
+    return _sphere_case(s, Ray(add(s.center, outward, s.radius), times(draw.sign(), outward)), draw)
 
 
 def _any_size(draw: RandomSource) -> Inputs:
     """The distance is up to 30 times the radius: farther away a method that is right on paper loses its digits."""
-    radius = draw.logarithmic(*SIZES)
+    radius = draw.logarithmic(*_SIZES)
     s = Sphere(draw.point(min(1.0, 300 * radius) if radius < 1 else 0.1 * radius), radius)
-    return _case(s, _at_sphere(draw, s, 0.0, 0.7, radius * (1 + draw.logarithmic(0.1, 30))), draw)
+    return _sphere_case(s, _at_sphere(draw, s, 0.0, 0.7, radius * (1 + draw.logarithmic(0.1, 30))), draw)
 
 
 def _signed_zeros(draw: RandomSource) -> Inputs:
     """Along an axis; the zeros of the direction have either sign."""
     s, axis, sign = Sphere(draw.simple_point(4), float(draw.whole(1, 5))), draw.whole(0, 2), draw.sign()
     direction = with_zeros(draw, axis, sign)
-    return _case(s, Ray(add(s.center, direction, -float(draw.whole(6, 12))), direction), draw)
+    return _sphere_case(s, Ray(add(s.center, direction, -float(draw.whole(6, 12))), direction), draw)
 
 
 SPHERE_INTERSECT = Function(
@@ -129,6 +329,9 @@ SPHERE_INTERSECT = Function(
         Group("passed by", _beside_sphere),
     ),
 )
+
+
+# The closest of several.
 
 
 def _distances(draw: RandomSource, count: int) -> list[float]:
