@@ -4,7 +4,7 @@ from raysteps.common.vectors import Vector, add, cross, times, unit
 from raysteps.judge.answers import Answer
 from raysteps.judge.cases.octree_boxes import BOUNDS_OF, CLIP, SPLIT
 from raysteps.judge.cases.octree_searches import CLOSEST_HIT_IN_OCTREE, OCCLUDED_IN_OCTREE
-from raysteps.judge.cases.tree_scenes import ball, built, large_and_small, small_scene, small_sphere
+from raysteps.judge.cases.tree_cases import ball, built, large_and_small, small_scene, small_sphere
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.octrees import TREE
 from raysteps.judge.protocol import Box, Inputs, f32, rounded

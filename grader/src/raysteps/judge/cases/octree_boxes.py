@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from raysteps.common.vectors import Vector, add, unit
 from raysteps.judge.answers import LENGTHS, SMALL, Answer, first, real, vector
-from raysteps.judge.cases.tree_scenes import small_scene
+from raysteps.judge.cases.tree_cases import small_scene
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Box, Inputs, ProtocolError, Ray, TokenReader, rounded
 from raysteps.judge.random_source import RandomSource, with_zeros

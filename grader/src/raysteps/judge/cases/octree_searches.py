@@ -3,10 +3,13 @@
 from functools import partial
 
 from raysteps.common.vectors import Vector, add, minus, unit
-from raysteps.judge.cases.search_cases import (
+from raysteps.judge.cases.tree_cases import (
+    BALLS,
+    SLOPE,
     Distance,
     MakeRays,
     RaysInScene,
+    Scene,
     along_axis,
     among_many,
     between,
@@ -22,8 +25,8 @@ from raysteps.judge.cases.search_cases import (
     over_a_ground,
     search,
     slope_and_balls,
+    small_scene,
 )
-from raysteps.judge.cases.tree_scenes import BALLS, SLOPE, Scene, small_scene
 from raysteps.judge.functions import Function, Group, Make
 from raysteps.judge.protocol import Ray, f32, rounded
 from raysteps.judge.random_source import RandomSource
