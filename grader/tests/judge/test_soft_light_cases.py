@@ -6,10 +6,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from raysteps.judge.counterexamples import is_same_kind
 from raysteps.judge.functions import Function, functions_of
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.shrink import is_same_kind
 from raysteps.judge.statistics import Numbers, Uneven
 
 pytestmark = pytest.mark.portable
