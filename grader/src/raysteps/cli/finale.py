@@ -21,9 +21,8 @@ from raysteps.common.text import clean, count, join_and
 from raysteps.common.text import size as shown_size
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project, is_of_part_two
-from raysteps.finale.denoising import refuse_without_denoiser
 from raysteps.finale.finale_page import Finale, Station, can_be_written, finale_page, in_words, poster
-from raysteps.finale.own_pictures import NotDrawn, OwnProgram, Reach, reach_of
+from raysteps.finale.own_pictures import NotDrawn, OwnProgram, Reach, reach_of, refuse_without_denoiser
 from raysteps.images.compare import write_png
 from raysteps.progress.standing import standings
 from raysteps.report.terminal import short_path
