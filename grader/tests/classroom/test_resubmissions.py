@@ -12,8 +12,7 @@ from class_fakes import FIRST, grade_class, write_entry
 
 from raysteps.classroom.entries import Shard
 from raysteps.report.attempts import history_of, history_words
-from raysteps.results.model import EarlierStep, EarlierSubmission, Results, StepResult
-from raysteps.results.review import Comment, PointsOverride, Review
+from raysteps.results.model import Comment, EarlierStep, EarlierSubmission, PointsOverride, Results, Review, StepResult
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 

@@ -14,8 +14,16 @@ from raysteps.exports.gradescope import to_gradescope
 from raysteps.exports.hosted import by_id
 from raysteps.exports.items import summary
 from raysteps.exports.prairielearn import to_prairielearn
-from raysteps.results.model import Results, StepResult, TestResult, Total
-from raysteps.results.review import Comment, PointsOverride, RegradeRequest, Review
+from raysteps.results.model import (
+    Comment,
+    PointsOverride,
+    RegradeRequest,
+    Results,
+    Review,
+    StepResult,
+    TestResult,
+    Total,
+)
 
 pytestmark = pytest.mark.portable
 _AT = "2026-11-20T18:00:00+00:00"

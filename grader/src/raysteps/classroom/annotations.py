@@ -16,7 +16,7 @@ from raysteps.classroom.database import ClassDatabase, Source, has_table, insert
 from raysteps.common.documents import Amount, Count, Malformed, convert
 from raysteps.common.errors import UsageError
 from raysteps.common.text import number
-from raysteps.results.review import Part
+from raysteps.results.model import Part
 
 Kind = Literal["comment", "points", "request", "read"]
 MAX_TEXT = 20_000  # characters

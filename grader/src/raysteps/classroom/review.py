@@ -10,8 +10,16 @@ from raysteps.common.text import clean, number
 from raysteps.course.manifest import Step
 from raysteps.report.student import parts_of
 from raysteps.results.class_model import HumanReview
-from raysteps.results.model import Results, StepResult, Total
-from raysteps.results.review import Comment, PointsOverride, RegradeRequest, Review, SinceThen
+from raysteps.results.model import (
+    Comment,
+    PointsOverride,
+    RegradeRequest,
+    Results,
+    Review,
+    SinceThen,
+    StepResult,
+    Total,
+)
 
 _ALIKE = 0.005  # points are written in hundredths
 _AROUND = 2  # lines before and after a commented one

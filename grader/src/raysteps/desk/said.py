@@ -36,7 +36,7 @@ from raysteps.common.text import join_and, number
 from raysteps.course.manifest import Step
 from raysteps.report.student import parts_of
 from raysteps.results.class_model import GradedStep
-from raysteps.results.review import Part
+from raysteps.results.model import Part
 from raysteps.results.store import stored_results
 
 _LINE = 2_000  # characters of a line that are kept

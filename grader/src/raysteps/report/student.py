@@ -36,16 +36,17 @@ from raysteps.report.wording import (
     watch_command,
 )
 from raysteps.results.model import (
+    Comment,
     Diagnosis,
     HiddenResult,
     Histogram,
     ImageResult,
     Results,
+    Review,
     StepResult,
     TestResult,
     Total,
 )
-from raysteps.results.review import Comment, Review
 from raysteps.results.statuses import STATUS_WORDS, in_words
 from raysteps.results.store import read_results
 

@@ -8,8 +8,7 @@ from raysteps.common.platform import own_command
 from raysteps.common.text import number, tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import here
-from raysteps.results.model import HandIn, ImageResult, Results, Total
-from raysteps.results.review import Comment, PointsOverride, Review
+from raysteps.results.model import Comment, HandIn, ImageResult, PointsOverride, Results, Review, Total
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
