@@ -25,7 +25,7 @@ from raysteps.release.leaks import Leak, find_leaks, leaks_in_history, not_searc
 from raysteps.release.secrets import Secrets, gather
 from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.updater.generated_files import FOLDERS
+from raysteps.updater.release_list import FOLDERS
 
 _MAX_SHOWN = 20
 

@@ -29,8 +29,17 @@ from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
 from raysteps.toolchain.build_kit import write_given_tests
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from raysteps.updater.generated_files import FOLDERS, HISTORY, is_made_anew
-from raysteps.updater.release_list import PLACE, ListedFile, Owner, Release, encoded, read_release
+from raysteps.updater.release_list import (
+    FOLDERS,
+    HISTORY,
+    PLACE,
+    ListedFile,
+    Owner,
+    Release,
+    encoded,
+    is_made_anew,
+    read_release,
+)
 
 # Puts a new release in the place of an older one, and loses nothing that is of neither.
 

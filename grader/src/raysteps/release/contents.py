@@ -11,7 +11,7 @@ from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.course.tracked_files import places, untracked
-from raysteps.updater.generated_files import is_made_anew
+from raysteps.updater.release_list import is_made_anew
 
 # The Python modules that a students' kit needs: all that its commands import, and nothing that knows answers.
 

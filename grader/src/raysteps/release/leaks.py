@@ -15,7 +15,7 @@ from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import count, join_and
 from raysteps.release.page_parts import Problem, folder_of_page, is_part, look_into
 from raysteps.release.secrets import Secrets, words_in
-from raysteps.updater.generated_files import CACHE, HISTORY, all_places
+from raysteps.updater.release_list import CACHE, HISTORY, all_places
 
 # What a file of a release may be: text, or a PNG picture that is nothing else.
 

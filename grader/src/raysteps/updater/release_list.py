@@ -1,10 +1,12 @@
-""".raysteps/release.json: which files of a students' repository are the kit's, and how they were."""
+""".raysteps/release.json: which files of a students' repository are the kit's, and how they were; and what is
+made beside them, which is neither the kit's nor a student's."""
 
 import json
+import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Annotated, Literal
 
 from msgspec import Meta
@@ -13,13 +15,46 @@ from raysteps import __version__
 from raysteps.common.documents import OPTIONAL, Malformed, Text, convert
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash
-from raysteps.updater.generated_files import all_places
+
+# What setting up and trying a kit makes in its folder: no part of a release, and none of a student's own files.
+
+FOLDERS = (".venv", "build")  # in the root
+CACHE = "__pycache__"
+HISTORY = ".git"
+
+
+@dataclass(frozen=True)
+class Place:
+    """A path, how it is called from the root of the kit, and whether it is a folder that was made."""
+
+    path: Path
+    name: str
+    made: bool
+
+
+def is_made_anew(name: str) -> bool:
+    """What Python makes wherever there is a package, and makes again when it is gone."""
+    return any(part == CACHE or part.endswith(".egg-info") for part in PurePosixPath(name).parts)
+
+
+def all_places(folder: Path, unreadable: Callable[[OSError], None] | None = None) -> Iterator[Place]:
+    """Files and folders, but not the history. Nobody goes into a folder that was made; one that cannot be read is
+    passed over, or told to `unreadable`."""
+    for root, names, files in os.walk(folder, onerror=unreadable):
+        for last in sorted([*names, *files]):
+            path = Path(root, last)
+            name = path.relative_to(folder).as_posix()
+            made = (name in FOLDERS or is_made_anew(name)) and path.is_dir() and not path.is_symlink()
+            if last in names and (made or name == HISTORY):
+                names.remove(last)
+            if name != HISTORY:
+                yield Place(path, name, made)
+
 
 # Which paths a list of files may hold: each leads to a place of its own, inside the folder, on every system.
 
 _PART = re.compile(r"[A-Za-z0-9._+-]*[A-Za-z0-9_+-]")  # Windows drops a dot at the end; `.` and `..` are no names
 _DEVICE = re.compile(r"(?:con|prn|aux|nul|com[0-9]|lpt[0-9])(?:\..*)?", re.IGNORECASE)
-_NOT_THE_KITS = (".venv", "build")
 _ALLOWED = "expected names of letters, digits and . _ + - only, with / between them"
 
 
@@ -32,7 +67,7 @@ def _complaint(path: str) -> str:
     parts = path.split("/")
     if not all(_PART.fullmatch(part) and not _DEVICE.fullmatch(part) for part in parts):
         return f"which is no name that every system can have; {_ALLOWED}"
-    if ".git" in (part.lower() for part in parts) or parts[0].lower() in _NOT_THE_KITS:
+    if ".git" in (part.lower() for part in parts) or parts[0].lower() in FOLDERS:
         return "which is never a file of the kit"
     if parts[0].lower() == ".raysteps":
         return "which is where the list itself is kept"
