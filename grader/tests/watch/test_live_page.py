@@ -13,8 +13,7 @@ from watch_fakes import result_of
 from raysteps.course.manifest import Step
 from raysteps.progress.hints import Hint
 from raysteps.results.model import Diagnosis
-from raysteps.watch.page_state import PageState, page_of, state_of
-from raysteps.watch.server import PageServer
+from raysteps.watch.page_state import PageServer, PageState, page_of, state_of
 from raysteps.watch.step_view import StepView
 
 if TYPE_CHECKING:

@@ -9,8 +9,7 @@ from collections.abc import Iterator
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.watch.page_state import PageState
-from raysteps.watch.server import PageServer
+from raysteps.watch.page_state import PageServer, PageState
 
 
 @pytest.fixture

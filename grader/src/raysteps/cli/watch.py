@@ -17,9 +17,8 @@ from raysteps.progress.standing import chosen_or_next
 from raysteps.watch.events import Event
 from raysteps.watch.file_watcher import FileWatcher, why_poll
 from raysteps.watch.keyboard import find_keyboard
-from raysteps.watch.page_state import PageState, page_of, state_of
+from raysteps.watch.page_state import PageServer, PageState, page_of, state_of
 from raysteps.watch.runner import INSPECT, WORKER, Inspection, Runner
-from raysteps.watch.server import PageServer
 from raysteps.watch.session import Session
 from raysteps.watch.step_view import StepView
 from raysteps.watch.terminal_view import TerminalView
