@@ -9,13 +9,13 @@ from conftest import Sources
 
 from raysteps.course.manifest import Step
 from raysteps.grading import unit_tests
-from raysteps.grading.quick_look import QuickLook
 from raysteps.grading.self_check import name_crash
 from raysteps.grading.unit_tests import FIND_THE_LINE, crash_line, hang_line, has_crashed
 from raysteps.results.model import StepResult, TestResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.watch.worker import QuickLook
 
 _ID = "02-intersection"
 _FIRST = "    std::optional<HitRecord> closest;\n"  # the beginning of closest_hit in the reference

@@ -29,7 +29,7 @@ _PARTS = {
         "todo_steps", "update", "view", "watch",
     },
     "course": {"manifest", "project", "stubs"},
-    "grading": {"build_messages", "images", "quick_look", "scoring", "self_check", "step", "unit_tests"},
+    "grading": {"build_messages", "images", "scoring", "self_check", "step", "unit_tests"},
     "inspector": {"model", "pixel_page", "programs", "records"},
 }  # fmt: skip
 

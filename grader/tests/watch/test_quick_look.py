@@ -10,13 +10,13 @@ from conftest import Sources
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.quick_look import QuickLook
 from raysteps.results.model import StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Task, TaskResult
 from raysteps.toolchain.compile import KeptLibraries, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.watch.runner import WORKER
+from raysteps.watch.worker import QuickLook
 
 _ID = "07-tone-mapping"
 
