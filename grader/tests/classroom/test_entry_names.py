@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.classroom.entries import Shard, list_entries, newest_time, read_shard
-from raysteps.classroom.entry_names import name_entries, safe_name, stem
+from raysteps.classroom.entries import Shard, list_entries, name_entries, newest_time, read_shard, safe_name, stem
 from raysteps.common.errors import UsageError
 
 

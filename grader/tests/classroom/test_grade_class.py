@@ -20,7 +20,7 @@ from fake_grader import FakeGrader, log
 from rich.console import Console
 
 import raysteps.classroom.class_document
-from raysteps.classroom.entry_names import folded
+from raysteps.classroom.entries import folded
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.common.errors import UsageError
 from raysteps.course.settings import PLACE

@@ -11,8 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from raysteps.classroom.database import ClassDatabase, has_table
-from raysteps.classroom.entries import read_shard
-from raysteps.classroom.entry_names import folded, stem
+from raysteps.classroom.entries import folded, read_shard, stem
 from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with_zone
 from raysteps.classroom.resubmissions import Resubmissions
 from raysteps.classroom.review import review_of_nothing, reviewed

@@ -10,7 +10,7 @@ from typing import Annotated, NoReturn
 
 from msgspec import Meta
 
-from raysteps.classroom.entry_names import folded
+from raysteps.classroom.entries import folded
 from raysteps.common.documents import Malformed, convert, place_in_toml, read_toml
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, number

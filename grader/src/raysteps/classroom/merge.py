@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.classroom.database import FILE, ClassDatabase, has_table, insert, open_readonly, transaction
-from raysteps.classroom.entry_names import name_entries
+from raysteps.classroom.entries import name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
 

@@ -15,8 +15,7 @@ from raysteps.classroom.annotations import annotated, last_said
 from raysteps.classroom.class_document import Standings, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS, write_submission
 from raysteps.classroom.database import ClassDatabase, insert, transaction
-from raysteps.classroom.entries import Entry, load_entry
-from raysteps.classroom.entry_names import folded
+from raysteps.classroom.entries import Entry, folded, load_entry
 from raysteps.classroom.jobs import Answer
 from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan

@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from raysteps.classroom.entry_names import name_entries
+from raysteps.classroom.entries import name_entries
 from raysteps.classroom.roster import Student
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_bytes

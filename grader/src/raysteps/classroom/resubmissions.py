@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from raysteps.classroom.database import has_table
-from raysteps.classroom.entry_names import folded, platform_identity, stem
+from raysteps.classroom.entries import folded, platform_identity, stem
 from raysteps.results.model import EarlierStep, EarlierSubmission
 from raysteps.results.store import stored_results
 from raysteps.submission.load import Submission

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
-from raysteps.classroom.entry_names import folded, platform_identity, stem
+from raysteps.classroom.entries import folded, platform_identity, stem
 from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, printable

@@ -11,8 +11,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raysteps.classroom.database import FILE, LOCK, ClassDatabase, Registered, Registration, RunFacts, Scope
-from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, newest_time
-from raysteps.classroom.entry_names import name_entries
+from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, name_entries, newest_time
 from raysteps.classroom.jobs import KIT_GRADER
 from raysteps.classroom.late_policy import late_policy_text, parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster

@@ -26,7 +26,7 @@ from raysteps.classroom.annotations import (
 from raysteps.classroom.class_document import steps_of
 from raysteps.classroom.class_files import Cell, csv_bytes
 from raysteps.classroom.database import ClassDatabase, Source, transaction
-from raysteps.classroom.entry_names import folded
+from raysteps.classroom.entries import folded
 from raysteps.classroom.review import item_words
 from raysteps.common.csv_safety import delimiter_of, unescape_formula
 from raysteps.common.documents import Malformed, as_text, convert, parse

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.classroom.class_files import refuse_unwritten
-from raysteps.classroom.entry_names import folded, platform_identity
+from raysteps.classroom.entries import folded, platform_identity
 from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula, unescape_formula
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import join_and, number, tenths

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from raysteps.classroom.class_document import read_class_document, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS
-from raysteps.classroom.entry_names import canvas_numbers, folded, moodle_identity, stem
+from raysteps.classroom.entries import canvas_numbers, folded, moodle_identity, stem
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import clean, did_you_mean, join_and
 from raysteps.course.manifest import Step

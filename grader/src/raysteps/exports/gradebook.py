@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from raysteps.classroom.entry_names import folded
+from raysteps.classroom.entries import folded
 from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import clean, number

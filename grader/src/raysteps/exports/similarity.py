@@ -7,8 +7,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.entries import list_entries
-from raysteps.classroom.entry_names import name_entries
+from raysteps.classroom.entries import list_entries, name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
