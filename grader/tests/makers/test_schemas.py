@@ -12,7 +12,7 @@ from export_documents import full, mixed
 from raysteps.common.documents import plain
 from raysteps.course.manifest import Step
 from raysteps.results.model import Results
-from tools.schemas import DOCUMENTS, schema_of, write_schemas
+from tools.dev import DOCUMENTS, schema_of, write_schemas
 
 pytestmark = pytest.mark.portable
 _OPTIONAL = {field.name for field in fields(Results) if field.metadata}
