@@ -10,7 +10,7 @@ from rich.markup import escape
 
 from raysteps.course.project import Project, generated
 from tools.bench.docs import bench_docs
-from tools.bench.grading import bench_loop, grading
+from tools.bench.grading import WaitsOptions, bench_loop, bench_waits, grading
 from tools.bench.mitsuba import MitsubaOptions, bench_mitsuba
 from tools.bench.model import ParseNumbers, ParseRow, keep
 from tools.bench.pictures import ThreadsOptions, bench_threads, boxes
@@ -19,7 +19,6 @@ from tools.bench.programs import ask_pinned, checked, portable
 from tools.bench.render import RenderOptions, bench_render
 from tools.bench.scale import ScaleOptions, bench_scale
 from tools.bench.tables import median, quartiles, terminal_table
-from tools.bench.waits import WaitsOptions, bench_waits
 
 # How fast scenes are read.
 

@@ -1,16 +1,23 @@
-"""The commands `bench grading` and `bench loop`: what a submission costs in a class, against the plain way, measured in
-turns; and how long a student waits from a changed file to the result of `raysteps check NN`."""
+"""The commands `bench grading`, `bench loop` and `bench waits`: what a submission costs in a class, against the plain
+way, measured in turns; how long a student waits from a changed file to the result of `raysteps check NN`, and a person
+for all else."""
 
 import os
+import re
 import shutil
+import subprocess
 import sys
 import tempfile
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.errors import GraderFault
@@ -25,9 +32,19 @@ from raysteps.exports.autograders import kit_files
 from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.cmake import release_tree
-from tools.bench.model import Cost, GradingNumbers, LoopNumbers, LoopRow, Spread, keep, mean_costs
+from tools.bench.model import (
+    Cost,
+    GradingNumbers,
+    LoopNumbers,
+    LoopRow,
+    Spread,
+    WaitsNumbers,
+    WaitsRow,
+    keep,
+    mean_costs,
+)
 from tools.bench.programs import children_seconds, machine
-from tools.bench.tables import terminal_table
+from tools.bench.tables import median, terminal_table
 
 _SECONDS = 3600
 _CLASS_SIZE = 8
@@ -73,7 +90,7 @@ def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
                 _must([build / "bin" / "raytrace-mine", root / case.scene, *case.args, "-o", picture, "--quiet"], root)
 
 
-def class_of(project: Project, folder: Path, size: int) -> Path:
+def _class_of(project: Project, folder: Path, size: int) -> Path:
     for number in range(size):
         shutil.copytree(project.samples / "complete", folder / f"student-{number:03d}")
     return folder
@@ -106,7 +123,7 @@ def grading(project: Project, rounds: int, console: Console) -> int:
         kit = build_kit(project, progress(console, status))
     costs: list[Cost] = []
     with tempfile.TemporaryDirectory(prefix="raysteps-bench-") as name:
-        submissions = class_of(project, Path(name) / "class", _CLASS_SIZE)
+        submissions = _class_of(project, Path(name) / "class", _CLASS_SIZE)
         for number in range(rounds):
             with console.status(f"round {number + 1} of {rounds}"):
                 plain = partial(plain_way, project, steps, project.samples / "complete")
@@ -128,7 +145,7 @@ _LOOP_SECONDS = 1800
 _START = "import sys; sys.path.insert(0, sys.argv.pop(1)); from raysteps.cli.app import main; sys.exit(main())"
 
 
-def copy_with_solutions(project: Project, root: Path) -> Project:
+def _copy_with_solutions(project: Project, root: Path) -> Project:
     """A kit of its own, so that nobody's files are changed. Its steps are the solutions."""
     for file in kit_files(project):
         target = root / file.place
@@ -143,19 +160,19 @@ def copy_with_solutions(project: Project, root: Path) -> Project:
     return Project(root)
 
 
-def started_in(kit: Project, *words: str | Path) -> list[str | Path]:
+def _started_in(kit: Project, *words: str | Path) -> list[str | Path]:
     """The words that start a command of that kit, with the Python that runs here."""
     return [sys.executable, "-P", "-c", _START, kit.root / "grader" / "src", *words]
 
 
 def _check(copy: Project, step: Step) -> Outcome:
-    outcome = run(started_in(copy, "check", step.number), seconds=_LOOP_SECONDS, cwd=copy.root)
+    outcome = run(_started_in(copy, "check", step.number), seconds=_LOOP_SECONDS, cwd=copy.root)
     if outcome.code != 0 or outcome.timed_out:
         raise GraderFault(f"raysteps check {step.number} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
     return outcome
 
 
-def edit(copy: Project, step: Step, number: int) -> None:
+def _edit(copy: Project, step: Step, number: int) -> None:
     source = copy.root / "steps" / step.path
     with source.open("a", encoding="utf-8") as file:
         file.write(f"// changed for the {number}. time\n")
@@ -165,7 +182,7 @@ def _measured_loop(copy: Project, step: Step, rounds: int) -> LoopRow:
     _check(copy, step)  # builds the kit, which is not done again for a changed step
     seconds = []
     for number in range(1, rounds + 1):
-        edit(copy, step, number)
+        _edit(copy, step, number)
         seconds.append(_check(copy, step).seconds)
     return LoopRow(step.id, Spread.of(seconds))
 
@@ -175,7 +192,7 @@ def bench_loop(project: Project, steps: list[str], rounds: int, console: Console
     chosen = choose(read_steps(project), steps)
     rows = []
     with tempfile.TemporaryDirectory(prefix="raysteps-loop-") as name:
-        copy = copy_with_solutions(project, Path(name))
+        copy = _copy_with_solutions(project, Path(name))
         for step in chosen:
             with console.status(f"changing and checking step {step.id}"):
                 rows.append(_measured_loop(copy, step, rounds))
@@ -186,4 +203,117 @@ def bench_loop(project: Project, steps: list[str], rounds: int, console: Console
         table.add_row(row.step, f"{spread.median:.2f} s", f"{spread.min:.2f} s", f"{spread.max:.2f} s")
     console.print(table)
     keep(project, LoopNumbers(machine=found, rows=rows), console)
+    return 0
+
+
+# The command `bench waits`: how long a person waits, from the first picture to the grades of a class.
+
+_WAITS_SECONDS = 7200
+_QUICK = (("--help",), ("list",), ("next",), ("hint", "01"))
+_WATCHED = ("01", "06")
+_SAID = re.compile(r"^[✓✗]")  # what `watch` found out of a save
+
+
+@dataclass(frozen=True)
+class WaitsOptions:
+    """What `bench waits` was asked for."""
+
+    rounds: int
+    submissions: int  # of the class
+
+
+class _Stopwatch:
+    """Commands of a kit, typed once or several times."""
+
+    def __init__(self, kit: Project, console: Console) -> None:
+        self._kit, self._console = kit, console
+
+    def row(self, what: str, rounds: int, *words: str | Path) -> WaitsRow:
+        clock, processor = [], []
+        with self._console.status(escape(what)):
+            for _ in range(rounds):
+                before = children_seconds()
+                outcome = run(_started_in(self._kit, *words), seconds=_WAITS_SECONDS, cwd=self._kit.root)
+                if outcome.code != 0 or outcome.timed_out:
+                    raise GraderFault(f"raysteps {words[0]} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
+                clock.append(outcome.seconds)
+                processor.append(children_seconds() - before)
+        return WaitsRow(what, Spread.of(clock), Spread.of(processor))
+
+
+@contextmanager
+def _watching(kit: Project, number: str) -> Iterator[Callable[[], None]]:
+    """While `watch` runs; what is yielded waits until it has said what came of the latest save."""
+    words = _started_in(kit, "watch", number, "--no-browser", "--quick")
+    unbuffered = os.environ | {"PYTHONUNBUFFERED": "1"}
+    with subprocess.Popen(
+        words, cwd=kit.root, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, encoding="utf-8",
+        env=unbuffered,
+    ) as process:  # fmt: skip
+        assert process.stdout is not None
+        lines = process.stdout
+        patience = threading.Timer(_WAITS_SECONDS, process.terminate)
+        patience.start()
+
+        def wait() -> None:
+            if not any(_SAID.match(line) for line in lines):
+                raise GraderFault(f"raysteps watch {number} ended by itself")
+
+        try:
+            yield wait
+        finally:
+            patience.cancel()
+            process.terminate()
+
+
+def _save_to_picture(kit: Project, number: str, rounds: int) -> WaitsRow:
+    step = next(step for step in read_steps(kit) if step.number == number)
+    seconds = []
+    with _watching(kit, number) as wait:
+        wait()
+        for saved in range(rounds):
+            start = time.monotonic()
+            _edit(kit, step, saved)
+            wait()
+            seconds.append(time.monotonic() - start)
+    return WaitsRow(f"watch {number}, from a save to tests and pictures", Spread.of(seconds), None)
+
+
+@contextmanager
+def _without_compiler_cache() -> Iterator[None]:
+    before = os.environ.get("CCACHE_DISABLE")
+    os.environ["CCACHE_DISABLE"] = "1"
+    try:
+        yield
+    finally:
+        del os.environ["CCACHE_DISABLE"]
+        if before is not None:
+            os.environ["CCACHE_DISABLE"] = before
+
+
+def bench_waits(project: Project, options: WaitsOptions, console: Console) -> int:
+    """Measures in a copy of the kit in which nothing is built, prints a table and writes build/bench/waits.json."""
+    refuse_on_windows("bench waits")
+    with tempfile.TemporaryDirectory(prefix="raysteps-waits-") as name:
+        folder = Path(name)
+        kit = _copy_with_solutions(project, folder / "kit")
+        typed = _Stopwatch(kit, console)
+        with _without_compiler_cache():
+            rows = [typed.row("demo, the first command", 1, "demo")]
+        rows += [typed.row(f"`{' '.join(words)}`", options.rounds, *words) for words in _QUICK]
+        for number in _WATCHED:
+            with console.status(f"watching step {number}"):
+                rows.append(_save_to_picture(kit, number, options.rounds))
+        one = kit.samples / "complete"
+        rows.append(typed.row("grade, all steps", options.rounds, "grade", one, "--out", folder / "one"))
+        submissions = _class_of(kit, folder / "class", options.submissions)
+        words = ("grade-class", submissions, "--out", folder / "grades", "--jobs", str(os.cpu_count() or 1))
+        rows.append(typed.row(f"grade-class, {options.submissions} submissions", 1, *words))
+        found = machine(release_tree(kit).folder)
+    table = terminal_table("how long a person waits, in seconds", ("way", "least", "median", "of processors"))
+    for row in rows:
+        least, usual = f"{row.seconds.min:.2f}", median(row.seconds, 2)
+        table.add_row(escape(row.what), least, usual, median(row.processor_seconds, 2))
+    console.print(table)
+    keep(project, WaitsNumbers(machine=found, rows=rows), console)
     return 0
