@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import bending, boxes, meshes, plots, rays, renders, sampling, shading
+from tools.figures import boxes, meshes, plots, rays, renders, sampling, shading
 from tools.figures.measuring import measured
 
 # All figures: their files, and what makes them.
@@ -35,13 +35,13 @@ _DIAGRAMS = {
     "03-cosine": shading.cosine,
     "04-shadow-ray": shading.shadow,
     "04-acne": shading.acne,
-    "05-mirror": bending.mirrored,
-    "05-tree": bending.tree,
+    "05-mirror": shading.mirrored,
+    "05-tree": shading.tree,
     "06-boxes": boxes.quadtree,
     "06-slabs": boxes.slabs,
     "06-overlap": boxes.overlap,
-    "08-snell": bending.snell,
-    "08-ball": bending.glass_ball,
+    "08-snell": shading.snell,
+    "08-ball": shading.glass_ball,
     "09-cut": boxes.cut,
     "10-points": sampling.points,
     "13-lifted": sampling.lifted,

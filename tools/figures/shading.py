@@ -1,4 +1,5 @@
-"""Steps 03 and 04: the directions of Phong's formula, the shadow ray, and why it needs a threshold."""
+"""Steps 03 to 05, and 08: the directions of Phong's formula, the shadow ray and why it needs a threshold, mirrors in
+mirrors, and glass."""
 
 import math
 
@@ -148,4 +149,146 @@ def acne() -> Drawing:
     figure.text((160, 300), "start at the hit: dark for no reason", "t-red", "middle")
     figure.text((478, 300), "start off the surface: lit", "t-green", "middle")
     figure.text((320, 34), "dots: the places that a float can hold", "small t-muted", "middle")
+    return figure
+
+
+def tree() -> Drawing:
+    """The calls of trace, one below the other."""
+    figure = Drawing(
+        640,
+        330,
+        "A chain of rays",
+        "The eye ray at depth 1 meets a mirror. Its reflected ray at depth 2 meets a second mirror, and the next "
+        "one at depth 3 a third. Depth 4 is above the limit of 3 and gives black. Each hit also sends shadow rays "
+        "to the lights. On the way back each colour is weighed with ks and added.",
+    )
+    figure.dot((50, 75), "ink", 6)
+    figure.text((50, 108), "eye", "strong", "middle")
+    places: list[Point] = [(190, 75), (340, 75), (490, 75)]
+    previous: Point = (58, 75)
+    for number, place in enumerate(places, 1):
+        figure.arrow(previous, (place[0] - 28, 75), "ink thick")
+        figure.text(((previous[0] + place[0] - 28) / 2, 62), f"depth {number}", "small", "middle")
+        figure.rect((place[0] - 26, 52), 52, 46, "w-blue l blue")
+        figure.text((place[0], 80), f"hit {number}", "small", "middle")
+        figure.arrow((place[0] - 8, 98), (place[0] - 24, 140), "green thin")
+        figure.arrow((place[0] + 8, 98), (place[0] + 24, 140), "green thin")
+        figure.text((place[0], 158), "shadow rays", "small t-green", "middle")
+        previous = (place[0] + 26, 75)
+    figure.line(previous, (572, 75), "red dash")
+    figure.text((545, 62), "depth 4", "small t-red", "middle")
+    figure.text((604, 80), "black", "t-red", "middle")
+    figure.text((604, 98), "(limit 3)", "small t-red", "middle")
+    figure.text((40, 205), "on the way back (ks = 0.5, own light 1)", "small t-muted")
+    sums = ["1 + 0.5 · 1.5 = 1.75", "1 + 0.5 · 1 = 1.5", "1 + 0.5 · 0 = 1"]
+    for place, words in zip(places, sums, strict=True):
+        figure.rect((place[0] - 70, 232), 140, 36, "w-red")
+        figure.text((place[0], 255), words, "small", "middle")
+    for left, right in ((places[0], places[1]), (places[1], places[2])):
+        figure.arrow((right[0] - 70, 285), (left[0] + 10, 285), "red")
+        figure.text(((left[0] + right[0]) / 2 - 30, 304), "times ks", "small t-red", "middle")
+    figure.arrow((120, 250), (62, 250), "red")
+    figure.text((50, 240), "pixel", "small t-red", "middle")
+    return figure
+
+
+def mirrored() -> Drawing:
+    """Angle in is angle out."""
+    figure = Drawing(
+        640,
+        250,
+        "A mirrored direction",
+        "The direction d comes down onto the surface. Its part along the surface stays; its part along the normal is "
+        "turned round. The mirrored ray leaves at the same angle, and starts a little off the surface.",
+    )
+    hit: Point = (320, 190)
+    figure.rect((60, 190), 520, 18, "w-grey")
+    figure.line((60, 190), (580, 190), "ink")
+    start, end = polar(hit, 143.1, 200), polar(hit, 36.9, 200)
+    figure.arrow(start, hit, "red thick")
+    figure.arrow(hit, end, "blue thick")
+    figure.arrow(hit, (320, 50), "ink")
+    figure.text((330, 58), "n", "math")
+    figure.text((start[0] + 50, start[1] + 16), "d", "math t-red")
+    figure.text((end[0] - 58, end[1] + 16), "mirrored", "t-blue", "end")
+    figure.arc(hit, 60, 90, 143.1, "muted")
+    figure.arc(hit, 60, 36.9, 90, "muted")
+    figure.text(polar(hit, 116, 76), "θ", "math", "middle")
+    figure.text(polar(hit, 64, 76), "θ", "math", "middle")
+    figure.line((end[0], end[1]), (end[0], 190), "green dash")
+    figure.text((end[0] + 8, 135), "turned round: 0.8", "small t-green")
+    figure.arrow((322, 203), (end[0], 203), "green")
+    figure.text((400, 230), "stays: 0.6", "small t-green", "middle")
+    return figure
+
+
+def snell() -> Drawing:
+    """Into glass, out of glass, and not out of it."""
+    figure = Drawing(
+        660,
+        300,
+        "Snell's law",
+        "Left: into glass at 45 degrees, the ray goes on at 28.1 degrees from the normal. Middle: out of glass at "
+        "30 degrees, it goes on at 48.6. Right: at 45 degrees inside it cannot leave and is mirrored: total "
+        "internal reflection.",
+    )
+    for x, angle, out, words in (
+        (115.0, 45.0, 28.13, "into glass: towards n"),
+        (330.0, 30.0, 48.59, "out of it: away from n"),
+        (545.0, 45.0, None, "45° > 41.8°: mirrored"),
+    ):
+        into = x < 200
+        hit: Point = (x, 145)
+        figure.rect((x - 100, 145 if into else 40), 200, 105, "w-blue")
+        figure.line((x - 100, 145), (x + 100, 145), "blue")
+        figure.line((x, 45), (x, 245), "muted dash thin")
+        start = polar(hit, 90 + angle, 105)
+        figure.arrow(start, hit, "red thick")
+        figure.arc(hit, 42, 90, 90 + angle, "red")
+        figure.text(polar(hit, 90 + angle / 2, 58), f"{angle:.0f}°", "small t-red", "middle")
+        if out is None:
+            figure.arrow(hit, polar(hit, 90 - angle, 105), "green thick")
+            figure.arc(hit, 42, 45, 90, "green")
+            figure.text(polar(hit, 67, 58), "45°", "small t-green", "middle")
+        else:
+            figure.arrow(hit, polar(hit, -90 + out, 105), "green thick")
+            figure.arc(hit, 42, -90, -90 + out, "green")
+            spot = polar(hit, -90 + out / 2, 62)
+            left = (x - 8, spot[1]) if into else (spot[0] + 3, spot[1] + 6)
+            figure.text(left, f"{out:.1f}°", "small t-green", "end" if into else "middle")
+        figure.text((x + 96, 138 if into else 240), "air, 1", "small t-muted", "end")
+        glass = (x - 94, 240) if into else (x + 96, 58)
+        figure.text(glass, "glass, 1.5", "small t-muted", "start" if into else "end")
+        figure.text((x, 278), words, "", "middle")
+    return figure
+
+
+def glass_ball() -> Drawing:
+    """Two rays through a ball cross: the world behind it stands on its head."""
+    figure = Drawing(
+        640,
+        280,
+        "Why a glass ball turns the world upside down",
+        "Two parallel rays enter a ball of glass, one above and one below the middle. Each bends towards the normal "
+        "on the way in and away from it on the way out; behind the ball they cross, so top and bottom change "
+        "places.",
+    )
+    center, radius, index = (250.0, 140.0), 90.0, 1.5
+    figure.circle(center, radius, "l w-blue blue")
+    figure.line((40, 140), (600, 140), "muted dash thin")
+    for offset, color in ((55.0, "red"), (-55.0, "green")):
+        first = math.asin(offset / radius)
+        second = math.asin(math.sin(first) / index)
+        enter = 180 - math.degrees(first)
+        leave = enter - 180 + 2 * math.degrees(second)
+        one, two = polar(center, enter, radius), polar(center, leave, radius)
+        away = -2 * (math.degrees(first) - math.degrees(second))
+        figure.arrow((40, one[1]), one, f"{color} thick")
+        figure.arrow(one, two, f"{color} thick")
+        figure.arrow(two, polar(two, away, 270), f"{color} thick")
+    figure.text((250, 262), "index 1.5", "small t-blue", "middle")
+    figure.text((60, 30), "seen above", "small t-red")
+    figure.text((60, 254), "seen below", "small t-green")
+    figure.text((512, 44), "is above", "small t-green", "end")
+    figure.text((512, 246), "is below", "small t-red", "end")
     return figure
