@@ -15,9 +15,19 @@ from raysteps.classroom.class_files import class_source, remake_class_page
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import UsageError
-from raysteps.report.class_attention import common_mistakes, groups, marks
+from raysteps.report.class_overview import (
+    common_mistakes,
+    divided,
+    groups,
+    histogram,
+    marks,
+    share_bars,
+    span,
+    step_figures,
+    times,
+    total_bars,
+)
 from raysteps.report.class_page import aliases, class_page, table_rows
-from raysteps.report.class_statistics import divided, histogram, share_bars, span, step_figures, times, total_bars
 from raysteps.results.class_model import ClassResults
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]

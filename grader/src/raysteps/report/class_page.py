@@ -8,12 +8,15 @@ from urllib.parse import quote
 
 from raysteps.common.files import write_bytes
 from raysteps.common.text import number, plain_letters, printable, searchable, signed, tenths
-from raysteps.report.class_attention import CommonMistake, common_mistakes, groups, marks
-from raysteps.report.class_statistics import (
+from raysteps.report.class_overview import (
+    CommonMistake,
     StepFigures,
+    common_mistakes,
     divided,
     graded,
+    groups,
     histogram,
+    marks,
     span,
     step_figures,
     times,
