@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from inspect_programs import Workshop, open_workshop
 
+from raysteps.cli.inspect import InspectOptions, inspect
 from raysteps.common.process import run
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.mutants import read_alternatives, read_mutants, reference_source
 from raysteps.course.project import Project
 from raysteps.images.compare import Pixels, read_ppm
 from raysteps.inspector.divergence import find_divergence
-from raysteps.inspector.programs import InspectOptions, inspect
 
 _SIZE = ("--size", "64x48")
 # step, mistake, scene; then the line that is marked, and the function that it points to

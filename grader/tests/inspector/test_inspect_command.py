@@ -12,7 +12,7 @@ import pytest
 from rich.console import Console
 
 from raysteps.cli.app import main
-from raysteps.cli.inspect import add_arguments, compare
+from raysteps.cli.inspect import InspectOptions, InspectResult, add_arguments, compare, inspect, last_good_step
 from raysteps.cli.inspect import run as start
 from raysteps.cli.render import build_program
 from raysteps.common.documents import convert, plain
@@ -23,7 +23,6 @@ from raysteps.course.project import Project
 from raysteps.images.compare import read_ppm
 from raysteps.inspector.divergence import find_divergence
 from raysteps.inspector.model import RayCounts, Record
-from raysteps.inspector.programs import InspectOptions, InspectResult, inspect, last_good_step
 from raysteps.toolchain.cmake import release_tree
 
 SIZE = ("--size", "40x30")

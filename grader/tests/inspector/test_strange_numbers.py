@@ -11,11 +11,11 @@ import pytest
 from inspect_records import ball_record
 from rich.console import Console
 
+from raysteps.cli.inspect import InspectOptions, inspect
 from raysteps.common.documents import Malformed, as_text, convert, plain
 from raysteps.inspector.divergence import find_divergence
 from raysteps.inspector.model import Record
 from raysteps.inspector.pixel_page import page_html
-from raysteps.inspector.programs import InspectOptions, inspect
 from raysteps.inspector.side_by_side import print_trees
 
 Change = Callable[[Record], None]

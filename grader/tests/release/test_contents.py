@@ -30,7 +30,7 @@ _PARTS = {
     },
     "course": {"manifest", "project", "stubs"},
     "grading": {"build_messages", "images", "scoring", "self_check", "step", "unit_tests"},
-    "inspector": {"model", "pixel_page", "programs", "records"},
+    "inspector": {"model", "pixel_page", "records"},
 }  # fmt: skip
 
 
