@@ -26,8 +26,8 @@ from raysteps.classroom.database import (
 )
 from raysteps.classroom.jobs import Answer, Job, from_line, to_line
 from raysteps.classroom.session import submission_key
-from raysteps.common.csv_safety import FORMULA_SIGNS
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.text import FORMULA_SIGNS
 from raysteps.results.model import Results, StepResult
 from raysteps.results.settings import Settings
 from raysteps.submission.load import Submission

@@ -15,11 +15,10 @@ from raysteps.classroom.class_document import class_document, hand_in, read_clas
 from raysteps.classroom.database import FILE as DATABASE
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.classroom.review import reviewed
-from raysteps.common.csv_safety import escape_formula
 from raysteps.common.documents import as_text, plain
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
-from raysteps.common.text import number
+from raysteps.common.text import escape_formula, number
 from raysteps.course.manifest import Step
 from raysteps.grading.withhold import withhold
 from raysteps.report import class_page as class_report

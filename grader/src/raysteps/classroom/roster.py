@@ -10,9 +10,8 @@ from datetime import datetime
 from pathlib import Path
 
 from raysteps.classroom.entries import folded, platform_identity, stem
-from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import join_and, printable
+from raysteps.common.text import delimiter_of, join_and, printable
 
 # Header names without anything but letters and digits, in lower case. The first that is there counts.
 _HEADERS = {

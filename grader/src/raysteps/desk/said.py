@@ -28,11 +28,10 @@ from raysteps.classroom.class_files import Cell, csv_bytes
 from raysteps.classroom.database import ClassDatabase, Source, transaction
 from raysteps.classroom.entries import folded
 from raysteps.classroom.review import item_words
-from raysteps.common.csv_safety import delimiter_of, unescape_formula
 from raysteps.common.documents import Malformed, as_text, convert, parse
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_out
-from raysteps.common.text import join_and, number
+from raysteps.common.text import delimiter_of, join_and, number, unescape_formula
 from raysteps.course.manifest import Step
 from raysteps.report.student import parts_of
 from raysteps.results.class_model import GradedStep

@@ -10,9 +10,8 @@ from pathlib import Path
 
 from raysteps.classroom.class_files import refuse_unwritten
 from raysteps.classroom.entries import folded, platform_identity
-from raysteps.common.csv_safety import FORMULA_SIGNS, escape_formula, unescape_formula
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import join_and, number, tenths
+from raysteps.common.text import FORMULA_SIGNS, escape_formula, join_and, number, tenths, unescape_formula
 from raysteps.course.manifest import Step
 from raysteps.exports.items import as_html, summary
 from raysteps.results.model import Results

@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Literal
 
 from raysteps.classroom.entries import folded
-from raysteps.common.csv_safety import delimiter_of
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import clean, number
+from raysteps.common.text import clean, delimiter_of, number
 from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, spoken_name
 
 # A CSV file in which single cells can be replaced while every other byte stays as it is.
