@@ -17,9 +17,8 @@ from raysteps.release.page_parts import is_page
 from raysteps.release.secrets import gather
 from raysteps.report.terminal import short_path
 from tools.website.build import GALLERY, PLAY, SITE, build_site, check_tools, stage
-from tools.website.documents import COMMANDS_PAGE, bad_formulas, dead_links, documents
+from tools.website.documents import COMMANDS_PAGE, api_pages, bad_formulas, command_page, dead_links, documents
 from tools.website.live_figures import LiveFigures, check_live, make_live_figures
-from tools.website.made_pages import api_pages, command_page
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

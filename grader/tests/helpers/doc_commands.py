@@ -20,8 +20,7 @@ from raysteps.cli.render import take_impl
 from raysteps.common.errors import RaystepsError
 from raysteps.common.markdown import blocks
 from raysteps.course.project import Project, here
-from tools.website.documents import documents, is_shell
-from tools.website.made_pages import usage
+from tools.website.documents import documents, is_shell, usage
 
 OTHER_PROGRAMS = {
     "apt-get", "brew", "cd", "cmake", "code", "cp", "ctest", "dnf", "docker", "git", "jplag", "java", "mkdir",

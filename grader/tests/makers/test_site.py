@@ -16,8 +16,15 @@ from raysteps.common.markdown import BadFormula, anchors, formulas, mathml
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, here
 from tools.website.build import SITE
-from tools.website.documents import CONTRACTS_PAGE, CORE_PAGE, bad_formulas, dead_links, documents
-from tools.website.made_pages import api_pages, command_page
+from tools.website.documents import (
+    CONTRACTS_PAGE,
+    CORE_PAGE,
+    api_pages,
+    bad_formulas,
+    command_page,
+    dead_links,
+    documents,
+)
 
 _TOGETHER = pytest.mark.xdist_group("site")
 
