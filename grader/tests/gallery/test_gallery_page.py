@@ -8,8 +8,8 @@ import pytest
 from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
 from playwright.sync_api import Page
 
+from raysteps.cli.gallery import GalleryEntry, gallery_page
 from raysteps.course.manifest import Step
-from raysteps.gallery.gallery_page import GalleryEntry, gallery_page
 from raysteps.gallery.shots import GalleryScene, Shot, WorkMap
 from raysteps.images.compare import Pixels
 from raysteps.results.model import Work
