@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from raysteps.exports.fingerprints import GRAM, MAX_TOKENS, SURE, WINDOW, Word, gram_hashes, winnowed, words_of
+from raysteps.exports.similar_pairs import GRAM, MAX_TOKENS, SURE, WINDOW, Word, gram_hashes, winnowed, words_of
 
 pytestmark = pytest.mark.portable
 
