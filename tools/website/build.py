@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
+from raysteps.common.files import OwnedFolder
 from raysteps.common.markdown import Block, mathml, with_tags, with_targets
-from raysteps.common.owned_folder import OwnedFolder
 from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project, here
 from tools.website.documents import below, documents, front_page, is_elsewhere, is_shell, sections, split

@@ -18,10 +18,9 @@ from typing import Any
 import numpy as np
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import one_at_a_time, usable_folder, write_bytes
+from raysteps.common.files import OwnedFolder, one_at_a_time, usable_folder, write_bytes
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
 from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targets
-from raysteps.common.owned_folder import OwnedFolder
 from raysteps.course.manifest import ImageCase, Step, course_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
