@@ -1,5 +1,7 @@
 """What is said when a step does not build."""
 
+from collections.abc import Sequence
+
 import pytest
 
 from raysteps.common.process import Outcome
@@ -25,6 +27,23 @@ def test_the_students_own_file_comes_first_with_the_lines_around_it(shadows: Ste
         "It does not build: shadows.cpp:4:11: 'nope' was not declared\n"
         "    3 | int one;\n    4 | int two = nope;\n      |           ^\n    5 | int three;"
     )
+
+
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        ([4], ""),
+        ([4, 4], ""),
+        ([4, 3], "\nThere are more errors, in line 3: mend this one first."),
+        ([4, 5, 4, 3], "\nThere are more errors, in lines 5 and 3: mend this one first."),
+        (range(1, 9), "\nThere are more errors, in lines 2, 3, 4, 5 and 6, and further on: mend this one first."),
+    ],
+)
+def test_more_errors_are_told_by_their_lines(shadows: Step, lines: Sequence[int], told: str) -> None:
+    output = "".join(f"/in/1/shadows.cpp:{line}:1: error: nope\n/in/0/other.hpp:7:1: error: x\n" for line in lines)
+    shown, _, rest = compile_message(shadows, SOURCE, ran(output)).partition("\nThere")
+    assert shown.startswith(f"It does not build: shadows.cpp:{lines[0]}:1: nope\n")
+    assert (f"\nThere{rest}" if rest else "") == told
 
 
 @pytest.mark.parametrize(

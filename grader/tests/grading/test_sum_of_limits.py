@@ -65,7 +65,7 @@ def test_who_runs_into_limits_is_not_waited_for(steps: list[Step], tmp_path: Pat
     tests = {f"test {number}": ["build"] for number in range(20)}
     results = run_tests(sandbox, program, tests, limits, said.append)
     assert said == [
-        "the tests were stopped; each runs by itself now",
+        "the tests were stopped; each runs by itself now, for at most 8 seconds",
         *(f"stopped: test {number}" for number in range(6)),
     ], "nobody waits in silence"
     assert sandbox.seconds == [8, 8, 2, 2, 2, 2, 2]

@@ -20,7 +20,7 @@ from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
 from raysteps.report.terminal import print_details
 from raysteps.report.wording import total_words
-from raysteps.results.model import Results, TestResult
+from raysteps.results.model import HiddenResult, Results, TestResult
 from raysteps.results.settings import Feedback
 from raysteps.results.store import write_results
 
@@ -399,10 +399,14 @@ def test_a_crash_is_told_once_for_a_step(open_page: OpenPage, steps: list[Step],
     result = wrong_step(steps[0], tmp_path)
     sentence = "The program crashed in the middle of the test (SIGSEGV)."
     result.tests = [TestResult(f"test {at}", False, sentence, outcome="crashed") for at in range(5)]
+    result.hidden = [
+        HiddenResult(f"scene {at}", "picture", 0.0, message=sentence, outcome="crashed") for at in range(3)
+    ]
     result.messages = ["5 of 5 tests failed.", sentence]
     page = open_page(write_student_page(document_of([result]), tmp_path, steps))
     step = page.locator("#step-01").inner_text()
     assert step.count(sentence) == 1
+    assert step.count("test 4") == step.count("scene 2") == 1
     assert step.count("crashed") == 6
     told = Console(file=io.StringIO(), width=200)
     print_details(told, document_of([result]), steps, tmp_path, str)

@@ -10,6 +10,7 @@ from raysteps.toolchain.compile import Compiled
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
+_MAX_MORE = 5  # lines with errors that are told besides the first
 _ERROR = re.compile(
     r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",
     re.M,
@@ -61,8 +62,18 @@ def _context(source: str, line: int, column: int) -> str:
     return "\n".join(shown)
 
 
+def _more(errors: list[_Error]) -> str:
+    """Where else errors are, which often follow from the first."""
+    lines = [str(line) for line in dict.fromkeys(error.line for error in errors)][1:]
+    if not lines:
+        return ""
+    where = f"line {lines[0]}" if len(lines) == 1 else f"lines {join_and(lines[:_MAX_MORE])}"
+    where += ", and further on" if len(lines) > _MAX_MORE else ""
+    return f"\nThere are more errors, in {where}: mend this one first."
+
+
 def compile_message(step: Step, source: str, ran: TaskResult) -> str:
-    """One sentence, the place, and the lines."""
+    """One sentence, the place, the lines, and where else."""
     if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
         return f"It does not build: the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
     if ran.stopped == "memory":
@@ -73,7 +84,7 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     for error in own or errors:
         place = f"{error.file}:{error.line}" + (f":{error.column}" if error.column else "")
         text = f"It does not build: {place}: {shorten(error.text, 300)}"
-        return f"{text}\n{_context(source, error.line, error.column)}" if own else text
+        return f"{text}\n{_context(source, error.line, error.column)}{_more(own)}" if own else text
     telling = [line for line in output.splitlines() if re.search("error:|terminated|Error", line)]
     said = shorten(telling[-1] if telling else output.strip().rpartition("\n")[2], 300)
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."

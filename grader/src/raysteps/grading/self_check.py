@@ -16,7 +16,7 @@ from raysteps.course.manifest import Step, earlier
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import GradingContext, StepGrader, compile_steps
-from raysteps.grading.unit_tests import FIND_THE_LINE, has_crashed, has_hung, set_aside, tell_crash_line
+from raysteps.grading.unit_tests import has_crashed, has_hung, set_aside, tell_crash_line
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
 from raysteps.results.model import Integration, Results, StepResult, Timing
@@ -132,9 +132,7 @@ def name_crash(
                 test, result = tests[step.id][0], next(result for result in found if result.id == step.id)
                 said = test.message
                 if tell_crash_line(sandbox, program, test, limits, files):
-                    # Nobody needs a debugger to find a line that is named; the others that crashed keep the hint.
-                    short = said.removesuffix(FIND_THE_LINE).strip()
-                    result.messages = [short if message == said else message for message in result.messages]
+                    result.messages = [test.message if message == said else message for message in result.messages]
 
 
 _TROUBLE = {

@@ -145,10 +145,10 @@ class StepGrader:
             raise GraderFault(f"{self.step.id} was not built: {free >> 20} MB are left in {self._work.folder}")
 
     def _does_not_build(self, message: str) -> None:
-        if self._unfinished:
-            self._result.messages.append(not_written_yet(self._unfinished))
         self._result.status = "does-not-build"
         self._result.messages.append(message)
+        if self._unfinished:
+            self._result.messages.append(not_written_yet(self._unfinished))
         self._result.cumulative = Integration(False, "This step does not build.")
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:

@@ -97,8 +97,8 @@ def run_tests(
     ran = _run(sandbox, program, limits, limits.seconds)
     together = _complete(ran, tests)
     if ran.was_stopped:
-        say("the tests were stopped; each runs by itself now")
-    limits = limits.after_a_stop() if ran.was_stopped else limits
+        limits = limits.after_a_stop()
+        say(f"the tests were stopped; each runs by itself now, for at most {in_seconds(limits.seconds)}")
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in tests]

@@ -298,14 +298,14 @@ def _spread(found: Histogram | None) -> dict[str, object] | None:
     }
 
 
-def _hidden(item: HiddenResult, has_reference: bool) -> dict[str, object]:
+def _hidden(item: HiddenResult, once: SaidOnce, has_reference: bool) -> dict[str, object]:
     groups = [replace(group, name=clean(group.name)) for group in item.groups]
     return {
         "name": clean(item.name),
         "passed": item.share >= 1,
         "waits_for": clean(item.waits_for),
         "percent": percent(item.share),
-        "message": clean(item.message),
+        "message": once(clean(item.message)) if item.outcome in ("crashed", "timeout") else clean(item.message),
         "spread": _spread(item.histogram),
         "case": [
             (label, clean(text, _TEXT))
@@ -414,7 +414,7 @@ def step_view(
         "messages": messages,
         "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.diagnoses],
         "tests": tests,
-        "hidden": [_hidden(item, has_reference) for item in result.hidden],
+        "hidden": [_hidden(item, once, has_reference) for item in result.hidden],
         "images": images,
         "build_log": clean(result.build_log, _LOG),
         "together": {"passed": result.cumulative.passed, "message": clean(result.cumulative.message)},

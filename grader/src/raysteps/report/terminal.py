@@ -68,7 +68,7 @@ def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
             _print_labelled(console, label, text)
 
 
-def _ended(item: TestResult | ImageResult) -> str:
+def _ended(item: TestResult | ImageResult | HiddenResult) -> str:
     """What became of a program that did not come to its end."""
     return in_words(item.outcome) if item.outcome in ("crashed", "timeout") else ""
 
@@ -129,10 +129,11 @@ def _print_tier(console: Console, result: StepResult, step: Step) -> None:
         console.print(f"             {tier.to_reach}", style="dim", highlight=False)
 
 
-def _print_hidden(console: Console, item: HiddenResult, again: Again) -> None:
+def _print_hidden(console: Console, item: HiddenResult, again: Again, once: SaidOnce) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
-    if item.message:
-        _print_below(console, item.message)
+    message = once(item.message) if _ended(item) else item.message
+    if message:
+        _print_below(console, message)
     for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):
         if text:
             _print_labelled(console, label, text)
@@ -179,7 +180,7 @@ def print_details(
             _print_tier(console, result, known[result.id])
         for item in result.hidden:
             if not item.passed and not item.waits_for:
-                _print_hidden(console, item, again)
+                _print_hidden(console, item, again, once)
         if result.hidden and all(item.passed for item in result.hidden):
             console.print(f"  [green]hidden[/green]   all {len(result.hidden)} passed")
         if result.cumulative.message and result.tests:
