@@ -88,6 +88,7 @@ def test_a_name_that_is_no_path_is_answered_with_one(
 @pytest.mark.parametrize(
     ("typed", "said"),
     [
+        ("render {scene} --size 8x8", "render: expected -o FILE for the picture; all options: ./raysteps render"),
         ("render {scene} -o there", "there: is a folder; expected the name of a file to write"),
         ("render {scene} -o a.png --stats there", "there: is a folder; expected the name of a file to write"),
         ("render {scene} -o new/a.png", "new/a.png: there is no folder new; make it first, or write elsewhere"),
@@ -293,7 +294,7 @@ def test_only_the_first_build_is_said_to_take_long(
     failed = Outcome(1, timed_out=False, stdout="", stderr="", seconds=1)
     monkeypatch.setattr(BuildTree, "build", lambda *_: failed)
     tree = release_tree(written_course(tmp_path))
-    for said in ("raysteps: building; the first time takes a minute or two\n", ""):
+    for said in ("raysteps: building; the first time may take a minute\n", ""):
         with pytest.raises(StudentBuildError):
             build_mine(tree)
         assert capsys.readouterr().err == said

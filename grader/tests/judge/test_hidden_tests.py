@@ -110,6 +110,22 @@ def test_one_kind_wrong(step: Step, plan: Plan) -> None:
     assert results["to_byte"].share == 1
 
 
+def test_what_near_answers_earn_is_said(step: Step, plan: Plan) -> None:
+    """Else nobody understands why a function with no case right has points."""
+
+    def dark(function: str, numbers: list[float]) -> str:
+        return words([0.9 * _mapped(c) for c in numbers]) if function == "tone_map" else "7"
+
+    results = judge(step, plan, FakeWorker(dark))
+    near, far = results["tone_map"], results["to_byte"]
+    share = near.groups[0].share
+    assert (near.groups[0].right, 0 < share < 1) == (0, True)
+    kind = f"{near.groups[0].name} (0 of {near.groups[0].cases} right, {100 * share:.0f} % earned)"
+    assert kind in near.message
+    assert "come near" in near.message
+    assert "earn" not in far.message
+
+
 def test_ordinary_cases_come_first(step: Step, plan: Plan) -> None:
     """Other kinds alone earn nothing, and the example is an ordinary case."""
 

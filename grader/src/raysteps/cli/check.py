@@ -40,10 +40,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)
-    if told and any(result.diagnoses for result in checked.results.steps):
-        print_diagnoses(console, checked.results)
-    elif not told:
+    if not told:
         tell(checked)
+    elif any(result.diagnoses for result in checked.results.steps):
+        print_diagnoses(console, checked.results)
+    elif project.has_reference:  # then known mistakes were learned meanwhile
+        console.print("No known mistake explains what is wrong.")
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:
         console.print(f"Next: {watch_command(checked.following.id)}")

@@ -96,7 +96,7 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
 
 
 def _say(text: str, *, first: bool = True) -> None:
-    print(f"raysteps: {text}{'; the first time takes a minute or two' if first else ''}", file=sys.stderr, flush=True)
+    print(f"raysteps: {text}{'; the first time may take a minute' if first else ''}", file=sys.stderr, flush=True)
 
 
 def _build(tree: BuildTree, target: str) -> Outcome:
@@ -241,6 +241,8 @@ def run_words(project: Project, args: list[str]) -> int:
         raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name that ends so")
     wanted_step(project, args)  # complains before anything is built
     args = with_scene(project, args)
+    if place_of_scene(args) is not None and not any(word == "--spd" or word.startswith("-o") for word in args):
+        raise UsageError(f"render: expected -o FILE for the picture; all options: {own_command()} render --help")
     for option in ("-o", "--stats"):
         refuse_place(args, option)
     if impl == "reference":

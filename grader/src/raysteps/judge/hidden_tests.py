@@ -115,6 +115,7 @@ _BEYOND = 1 / 3
 _SPARES_NOTHING = 0.25  # a tree or a search is there to spare tests; one that spares none earns no more
 _NEAR = 0.5  # of the share of wrong answers that come near the right ones
 _MAY_MISS = 0.01  # of the cases of a kind, by rounding
+_TOLD = 0.05  # of a kind's points, when answers that are wrong earn that much
 _DIGITS = 6  # of a share
 _REFERENCE_SECONDS = 600
 
@@ -273,12 +274,22 @@ def _keeps_something(judged: Sequence[JudgedCase]) -> bool:
     return False
 
 
+def _earns_in_part(group: CaseGroup) -> bool:
+    return group.share - group.right / group.cases >= _TOLD
+
+
+def _in_words(group: CaseGroup) -> str:
+    earned = f", {100 * group.share:.0f} % earned" if _earns_in_part(group) else ""
+    return f"{group.name} ({group.right} of {group.cases} right{earned})"
+
+
 def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase, kept: bool) -> str:
     right = len(groups) - len(wrong)
-    kinds = "; ".join(f"{group.name} ({group.right} of {group.cases} right)" for group in wrong)
+    kinds = "; ".join(map(_in_words, wrong))
+    partly = " Answers that come near, or are right in part, earn something." if any(map(_earns_in_part, wrong)) else ""
     text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
     again = _KEPT if kept and found.case.group == AGAIN else ""
-    return f"{text}wrong: {kinds}. In a case of '{found.case.group}': {found.verdict.problem}.{again}"
+    return f"{text}wrong: {kinds}.{partly} In a case of '{found.case.group}': {found.verdict.problem}.{again}"
 
 
 def _outcome(judged: Sequence[JudgedCase]) -> Termination:
