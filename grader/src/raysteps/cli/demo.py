@@ -14,6 +14,7 @@ from raysteps.common.files import usable_folder
 from raysteps.common.text import number
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project, generated
+from raysteps.report.terminal import short_path
 from raysteps.results.model import Results
 from raysteps.toolchain.build_kit import build_kit
 
@@ -56,7 +57,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     console.print("Rendering the sphereflake with what the course has after each step:")
     for step in kit.steps:
         path = _render(kit.reference("raytrace"), scene, step, folder)
-        console.print(f"  {escape(str(path))}", soft_wrap=True, highlight=False)
+        console.print(f"  {escape(short_path(path))}", soft_wrap=True, highlight=False)
     for sample in ("complete", "partial"):
         console.print(f"\nGrading the sample submission [bold]{sample}[/bold].")
         options = GradeOptions(project.samples / sample, folder / sample, details=sample == "partial")

@@ -212,7 +212,7 @@ def print_table(console: Console, results: Results, *, visible_only: bool = Fals
             f"{sum(test.passed for test in result.tests)}/{len(result.tests)}" if ran else "",
             f"{sum(image.passed for image in result.images)}/{len(result.images)}" if ran else "",
             f"{sum(item.passed for item in result.hidden)}/{len(result.hidden)}" if result.hidden else "",
-            "yes" if result.cumulative.passed else "no",
+            ("yes" if result.cumulative.passed else "no") if ran else "",
         ]
         table.add_row(*row[: len(table.columns)])
     console.print(table)
