@@ -87,7 +87,7 @@ def test_broken_steps_cost_themselves_only(
     results = _grade(kit, make_submission("broken", sources), tmp_path)
     status = _status(results)
     assert status["01"] == "does-not-build"
-    assert results.steps[0].messages[-1].startswith("It does not build: camera_rays.cpp:")
+    assert results.steps[0].messages[0].startswith("It does not build: camera_rays.cpp:")
     assert status["02"] == "crashed"
     assert "SIGSEGV" in " ".join(results.steps[1].messages)
     assert any(test.passed for test in results.steps[1].tests), "a crash hides the other tests"

@@ -66,7 +66,7 @@ def status_and_points(result: StepResult, step: Step) -> tuple[Status, float]:
 
 
 def sum_up(result: StepResult) -> list[str]:
-    """What failed, in numbers, what waits, and the first crash or timeout."""
+    """The first crash or timeout, what failed, in numbers, and what waits."""
     kinds: tuple[tuple[str, str, Sequence[TestResult | ImageResult | HiddenResult]], ...] = (
         ("test", "failed", result.tests),
         ("picture", "did not pass", result.images),
@@ -85,7 +85,7 @@ def sum_up(result: StepResult) -> list[str]:
         messages.append(f"Waiting for that: {join_and(waiting)}.{right}")
     outcomes = [(item.outcome, item.message) for items in (result.tests, result.images) for item in items]
     bad = [message for outcome, message in outcomes if outcome in ("crashed", "timeout")]
-    return messages + bad[:1]
+    return bad[:1] + messages
 
 
 def exit_code(results: Results) -> int:
