@@ -28,7 +28,7 @@ std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) const {
     hit.fill.shine = 1.0F + 40.0F * varied;
     hit.fill.transmittance = varied < 0.4F ? 0.0F : varied;
     hit.fill.index_of_refraction = 1.0F + varied;
-    hit.front_face = number % 2 == 0;
+    hit.front_face = varied < 0.6F;
     hit.normal = glm::dot(scripted.normal, ray.direction) <= 0.0F ? scripted.normal : -scripted.normal;
     hit.ray_direction = ray.direction;
     hit.distance = scripted.distance;

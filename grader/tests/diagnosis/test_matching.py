@@ -234,6 +234,27 @@ def test_pictures_deny_what_a_yes_or_no_says_and_what_is_seen() -> None:
             assert all(bool(one.diagnosis().sees) == bool(sees) for one in named)
 
 
+def test_a_right_picture_refutes_what_would_spoil_it_where_answers_are_yes_or_no() -> None:
+    """Not where it hangs on a tree, and not where the numbers of an answer say more."""
+    reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
+    spoilt = reference.copy()
+    spoilt[:15] //= 2
+    said = {number: ObservedAnswers("0", "it is wrong") for number in range(30)}
+    for name, drawn, args, is_named in (
+        ("is_lit", spoilt, (), False),
+        ("is_lit", reference, (), True),
+        ("is_lit", spoilt, ("--accel", "octree"), True),
+        ("is_lit", None, (), True),
+        ("shadow_ray", spoilt, (), True),
+    ):
+        questions = Questions(functions_of("04")[name], [Case(name, "any", {})] * 30, ["1"] * 30)
+        case = ImageCase("lit", "scenes/x.nff", args, 0.003)
+        evidence = Evidence({name: questions}, {name: said}, {"lit": Picture(case, reference, reference)})
+        fingerprint = MutantFingerprint({name: said}, {} if drawn is None else {"lit": drawn})
+        named = name_mistakes([match(_mutant("one", name), fingerprint, evidence)])
+        assert bool(named) == is_named
+
+
 def test_a_picture_of_one_colour_has_no_name() -> None:
     reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
     black = np.zeros_like(reference)

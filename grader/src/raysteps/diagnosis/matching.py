@@ -58,7 +58,8 @@ class Match:
     `telling`: the pictures that are not of one colour, which may have any cause. `spoilt`: wrong pictures in which the
     mistake shows. `against`: what the mistake spoils and is right. `denied`: its own function is among that.
     `in_trees`: pictures that hang on how a tree is built. `right_apart`: its own function is right where the
-    reference's stand for the wrong ones before it, so its wrong answers are another function's.
+    reference's stand for the wrong ones before it, so its wrong answers are another function's. `refuted`: it draws
+    another picture than the one that came out right, and no tree has a part in that.
     """
 
     mutant: Mutant
@@ -71,6 +72,7 @@ class Match:
     spoils_right: bool = False
     in_trees: set[str] = field(default_factory=set)
     right_apart: bool = False
+    refuted: bool = False
 
     def explains(self, told: Collection[str] = ()) -> dict[str, float]:
         """With a score from 0 to 1. `told`: pictures that other mistakes spoil: they do not speak against it."""
@@ -103,6 +105,12 @@ class Match:
             return True
         explained = self.explains().keys() & self.functions.keys()
         return self.denied and all(self.functions[name].empty > _MOSTLY_EMPTY for name in explained)
+
+    def is_refuted(self) -> bool:
+        """Whether a right picture outweighs what is known of its own function: yes and no are often the same answer by
+        chance. Numbers that are wrong alike are not, and perhaps nothing that draws calls that function."""
+        own = self.functions.get(self.mutant.function)
+        return self.refuted and own is not None and own.weak
 
     def is_seen(self) -> bool:
         """Whether the pictures may look as the mistake makes them look: not where it explains none of those that are
@@ -179,6 +187,7 @@ def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) ->
         elif spoils(drawn, picture):
             found.against.append(name)
             found.spoils_right = True
+            found.refuted |= drawn is not None and not picture.case.has_tree
     return found
 
 
@@ -268,7 +277,7 @@ class _Open:
 def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
     """The likeliest first. `matches`: of all known mistakes, in the catalogue's order."""
     open_ = _Open({name for match in matches for name in (*match.functions, *match.pictures)}, set())
-    matches = [one for one in matches if not one.right_apart]
+    matches = [one for one in matches if not (one.right_apart or one.is_refuted())]
     named: list[NamedMistake] = []
     while len(named) < _MAX:
         worths = [(match, open_.worth(match)) for match in matches]
