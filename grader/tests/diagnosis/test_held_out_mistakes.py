@@ -74,6 +74,20 @@ def test_two_steps_have_a_mistake_each(kit: BuiltKit, tmp_path: Path, make_submi
     assert f"Hint: {first.hint}" in said
 
 
+@pytest.mark.slow
+def test_what_only_some_pictures_lack_has_no_cause_that_all_would_show(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission
+) -> None:
+    """Facing mirrors show nothing of each other, but balls show the floor: a ray is cast."""
+    edit = ("sum += weight *", "if (d == 1 || hit->fill.ks <= 0) sum += weight *")
+    source = _source({"step": "05-reflection", "name": "own light once", "edits": [edit]})
+    (result,) = _grade(kit, make_submission, tmp_path / "out", {"05-reflection": source}).steps
+    (found,) = (one for one in result.diagnoses if one.id == "no-mirrors")
+    assert found.seen_in == ["facing-mirrors", "facing-mirrors-shallow"]
+    assert found.hint
+    assert not found.cause
+
+
 def test_every_expected_mistake_is_in_the_catalogue(kit: BuiltKit) -> None:
     known = {step.id: {mutant.id for mutant in read_mutants(kit.project, step)} for step in kit.steps}
     assert all(set(case["expect"]) <= known[case["step"]] for case in _CASES)

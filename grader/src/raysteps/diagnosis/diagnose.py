@@ -1,7 +1,7 @@
 """What explains a step that is not right, in words."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -107,6 +107,19 @@ def _before(kit: BuiltKit, step: Step, picture: Picture) -> Mapping[str, Pixels]
     return {name: Terms(kit, step.index, picture).at_step(earlier)}
 
 
+_HAS_SOME = 0.25  # of the pixels that the step changes in a picture: they do not look as before it
+
+
+def _is_elsewhere(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture], seen_in: Collection[str]) -> bool:
+    """Whether what the step adds is missing in these pictures, and to be seen in another one."""
+    for name, picture in pictures.items():
+        for before in _before(kit, step, picture).values() if name not in seen_in else ():
+            added = differing(before, picture.reference)
+            if (differing(before, picture.mine) & added).sum() > _HAS_SOME * added.sum():
+                return True
+    return False
+
+
 _OF_VECTORS = {
     "negative": "normals-reversed",
     "red-and-blue-swapped": "axes-exchanged",
@@ -120,15 +133,21 @@ def _name(changed: Transformed, step: Step, picture: Picture) -> str:
     return _OF_VECTORS.get(changed.id, changed.id) if shows_vectors else changed.id
 
 
-def transformations(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iterator[Diagnosis]:
-    """Each once, with all pictures that it explains."""
+def transformations(
+    kit: BuiltKit, step: Step, pictures: Mapping[str, Picture], every_one: Mapping[str, Picture]
+) -> Iterator[Diagnosis]:
+    """Each once, with all pictures that it explains. What is missing in some of `every_one` only has another cause than
+    what is missing wherever it should be."""
     found: dict[tuple[str, str], list[str]] = {}
     for name, picture in pictures.items():
         changed = transformation_of(picture, _before(kit, step, picture))
         if changed is not None:
             found.setdefault((_name(changed, step, picture), changed.detail), []).append(name)
     for (name, detail), seen_in in sorted(found.items(), key=lambda item: -len(item[1]))[:_MAX]:
-        yield in_words(name, detail, seen_in)
+        found_one = in_words(name, detail, seen_in)
+        is_before = step.index in BEFORE and name == BEFORE[step.index][0]
+        has_another_cause = is_before and _is_elsewhere(kit, step, every_one, seen_in)
+        yield replace(found_one, cause="") if has_another_cause else found_one
 
 
 def findings(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iterator[Diagnosis]:
@@ -175,7 +194,7 @@ class Diagnostician:
             for name, picture in pictures.items()
             if picture.is_wrong and picture.says_something and name not in spoilt
         }
-        found = list(transformations(self.kit, self.step, open_))
+        found = list(transformations(self.kit, self.step, open_, pictures))
         told = {name for one in found for name in one.seen_in}
         rest = {name: picture for name, picture in open_.items() if name not in told}
         return [*named, *found, *findings(self.kit, self.step, rest)]

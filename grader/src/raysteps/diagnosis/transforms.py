@@ -174,7 +174,7 @@ _TABLE: Mapping[str, TransformWords] = {
     "shifted-by-half": TransformWords(
         "the picture is moved by half a pixel",
         "The colours are a little off everywhere, by half of what lies between two pixels.",
-        "The rays go through corners of pixels rather than through their centres.",
+        "The rays go through corners or edges of pixels rather than through their centres.",
         "Where in a pixel does its ray go through?",
     ),
     "negative": TransformWords(
@@ -264,7 +264,7 @@ _TABLE: Mapping[str, TransformWords] = {
     "no-glass": TransformWords(
         "glass lets nothing through",
         "The picture is that of step 07: what is of glass shows only its own light.",
-        "The transmitted ray is never cast, or what it brings is thrown away.",
+        "The transmitted ray is never cast, or not where it leaves the glass again, or what it brings is thrown away.",
         "Follow one ray that meets glass. When does it go on, and where does the colour that it finds go?",
     ),
 }
