@@ -97,6 +97,38 @@ def test_a_reflected_ray_that_alone_is_wrong(honest: _Honest, steps: list[Step],
     assert shares["trace"] == 1
 
 
+_RAY = "    const Ray ray = shadow_ray(hit, light);\n"
+_ONLY_ON_THE_EYES_SIDE = """    if (glm::dot(light.position - hit.position, hit.ray_direction) >= 0.0F) {
+        return false;
+    }
+"""
+_CLIP = "    return part_inside(*this, ray.origin, 1.0F / ray.direction, {});\n"
+_CLIP_ROUNDED = """    glm::vec3 direction = ray.direction;
+    for (int axis = 0; axis < 3; ++axis) {
+        direction[axis] = std::abs(direction[axis]) < 0.01F ? 0.0F : direction[axis];
+    }
+    return part_inside(*this, ray.origin, 1.0F / direction, {});
+"""
+
+
+@pytest.mark.parametrize(
+    ("step", "old", "new", "function", "kind"),
+    [
+        (3, _RAY, _ONLY_ON_THE_EYES_SIDE + _RAY, "is_lit", "nothing between"),
+        (5, _CLIP, _CLIP_ROUNDED, "Box::clip", "almost along an axis"),
+    ],
+)
+def test_what_few_pixels_show_is_asked(
+    honest: _Honest, steps: list[Step], step: int, old: str, new: str, function: str, kind: str
+) -> None:
+    """A light that is seen, but not from where the eye is; a ray that is taken to run along an axis, and only nearly
+    does."""
+    result = honest.grade(steps[step], old, new)
+    (groups,) = (item.groups for item in result.hidden if item.name == function)
+    (group,) = (group for group in groups if group.name == kind)
+    assert 0 < group.right < group.cases
+
+
 def test_a_tree_that_spares_nothing(honest: _Honest, steps: list[Step]) -> None:
     """It costs the pictures; but where most of one is sky, rays test few objects all the same."""
     result = honest.grade(steps[5], "k_leaf_size = 8", "k_leaf_size = 100000")

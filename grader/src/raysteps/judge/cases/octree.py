@@ -85,7 +85,7 @@ def _sphere_flat(draw: RandomSource) -> Inputs:
 
 
 def _sphere_mixed(draw: RandomSource) -> Inputs:
-    return _sphere_on(draw, (0.3, 3), (0.3, 2)) if draw.chance(0.3) else _sphere_far(draw)
+    return _sphere_on(draw, (0.3, 3), (0.3, 2)) if draw.chance(0.5) else _sphere_far(draw)
 
 
 SPHERE_OVERLAPS = Function(
@@ -125,7 +125,7 @@ def _triangle_far(draw: RandomSource) -> Inputs:
 
 
 def _triangle_mixed(draw: RandomSource) -> Inputs:
-    return _triangle_inner(draw, (0.3, 2)) if draw.chance(0.3) else _triangle_far(draw)
+    return _triangle_inner(draw, (0.3, 2)) if draw.chance(0.5) else _triangle_far(draw)
 
 
 def _triangle_flat(draw: RandomSource) -> Inputs:

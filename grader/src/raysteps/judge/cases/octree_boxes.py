@@ -281,11 +281,16 @@ def _close_to_corner(draw: RandomSource) -> Inputs:
 
 
 def _almost_along_axis(draw: RandomSource) -> Inputs:
-    """One of the direction's numbers is nearly 1, the others nearly 0."""
+    """One of the direction's numbers is nearly 1, the others nearly 0. Half of the rays come from so far away that they
+    begin beside the box: who takes a small number for 0 loses them."""
     box, axis = any_box(draw), draw.whole(0, 2)
-    way = [draw.sign() * (1.0 if i == axis else draw.real(1e-6, 1e-4)) for i in range(3)]
+    from_beside = draw.chance(0.5)
+    small = (0.003, 0.02) if from_beside else (1e-6, 1e-4)
+    way = [draw.sign() * (1.0 if i == axis else draw.logarithmic(*small)) for i in range(3)]
     direction = rounded(unit((way[0], way[1], way[2])))
-    return _clip(box, add(within(draw, box), direction, -draw.real(5, 10)), direction)
+    widths = [high - low for low, high in zip(box.low, box.high, strict=True)]
+    beside = max(width / abs(x) for i, (width, x) in enumerate(zip(widths, direction, strict=True)) if i != axis)
+    return _clip(box, add(within(draw, box), direction, -(beside if from_beside else draw.real(5, 10))), direction)
 
 
 def _tiny_or_huge(draw: RandomSource) -> Inputs:

@@ -18,9 +18,12 @@ def hit_at(position: Vector, normal: Vector) -> Hit:
 
 
 def random_hit(draw: RandomSource, reach: float = 3.0) -> Hit:
-    """From either side of its surface, and on anything: neither matters."""
+    """From either side of its surface, from anywhere on that side, and on anything: nothing of it matters."""
     hit = hit_at(draw.point(reach), draw.direction())
-    return replace(hit, distance=draw.real(0.5, 20), fill=draw.fill(), front_face=draw.chance(0.6))
+    seen_along = rounded(times(-1.0, draw.above(hit.normal, 0.2)))
+    return replace(
+        hit, ray_direction=seen_along, distance=draw.real(0.5, 20), fill=draw.fill(), front_face=draw.chance(0.6)
+    )
 
 
 def light_above(draw: RandomSource, hit: Hit, near: float, far: float) -> Light:
@@ -202,7 +205,7 @@ _LIT = Answer(_read_lit, _lit_words, _lit_problem, constant=lambda answer: str(a
 def _lit_or_not(draw: RandomSource) -> Inputs:
     hit = random_hit(draw)
     light = light_above(draw, hit, 4, 30)
-    return scene(several(draw, hit, light, blocked=draw.chance(0.3)), hit, light)
+    return scene(several(draw, hit, light, blocked=draw.chance(0.5)), hit, light)
 
 
 def _simple_scene(draw: RandomSource) -> Inputs:
