@@ -226,8 +226,13 @@ def _brought_credit(inputs: Inputs, expected: _Brought, actual: _Brought) -> flo
     return 0.5 if expected.traced and not _traced_problem(inputs, expected, actual) else 0.0
 
 
-def _light(draw: RandomSource, hit: Hit) -> Inputs:
-    return {"hit": hit, "depth": Whole(draw.whole(1, 6)), "traced": Vec(draw.color())}
+_DEEPEST = 7  # the worker's max_ray_depth
+
+
+def _light(draw: RandomSource, hit: Hit, lowest: int = 1) -> Inputs:
+    """The ray that goes on is one deeper, and always one that is still followed."""
+    depth = Whole(draw.whole(lowest, _DEEPEST - 1))
+    return {"hit": hit, f"depth, where max_ray_depth is {_DEEPEST}": depth, "traced": Vec(draw.color())}
 
 
 def _faint(draw: RandomSource) -> Inputs:
@@ -254,6 +259,7 @@ TRANSMITTED_LIGHT = Function(
             lambda d: _light(d, hit_on_glass(d, index_of_glass(d), outside=False, total=True)),
         ),
         Group("hardly and wholly clear", _faint),
+        Group("the deepest ray", lambda d: _light(d, random_hit(d), _DEEPEST - 1)),
         Group("not of glass", _not_glass),
     ),
 )
@@ -261,6 +267,13 @@ TRANSMITTED_LIGHT = Function(
 
 def _unbent(draw: RandomSource, index: float) -> Inputs:
     return {"hit": hit_on_glass(draw, index, outside=draw.chance(0.5))}
+
+
+def _bubble(draw: RandomSource) -> Inputs:
+    """Of air in glass: it is from outside that light may be unable to enter it."""
+    index = f32(1 / index_of_glass(draw))
+    total = draw.chance(0.3)
+    return {"hit": hit_on_glass(draw, index, outside=total or draw.chance(0.5), total=total)}
 
 
 _TRANSMITTED_RAY = Function(
@@ -277,6 +290,7 @@ _TRANSMITTED_RAY = Function(
         ),
         Group("index 1", lambda d: _unbent(d, 1.0)),
         Group("index 0 counts as 1", lambda d: _unbent(d, 0.0)),
+        Group("index below 1", _bubble),
     ),
 )
 
