@@ -17,7 +17,7 @@ public:
 
     /// 0 <= next() < 1, each of the 2^24 floats of that distance as likely as any other.
     float next() {
-        if (used_ == 4) {
+        if (used_ >= block_.size()) {  // or more: a stream may come from a box, as any bytes
             block_ = philox({++blocks_, 0, 0, 0}, key_);
             used_ = 0;
         }

@@ -1,6 +1,8 @@
 // The stream is the published generator, and its numbers are what they are said to be.
 #include "core/random_stream.hpp"
 
+#include <array>
+#include <bit>
 #include <set>
 #include <vector>
 
@@ -32,6 +34,13 @@ TEST_CASE("RandomStream: the same again, and others for another seed or number",
     };
     CHECK(first_of(1, 2) == first_of(1, 2));
     CHECK(std::set<std::vector<float>>{first_of(1, 2), first_of(2, 1), first_of(1, 3), first_of(0, 2)}.size() == 4);
+}
+
+TEST_CASE("RandomStream: of any bytes it reads its own block only", "[core]") {
+    RandomStream honest(1, 2);
+    const std::array<std::uint32_t, 8> bytes{1, 2, 0, 0x3fffffff, 9, 9, 9, 9};
+    auto forged = std::bit_cast<RandomStream>(bytes);
+    CHECK(forged.next() == honest.next());
 }
 
 TEST_CASE("RandomStream: from 0 to below 1, evenly, without a tie from one number to the next", "[core]") {

@@ -104,6 +104,44 @@ struct Bounds {
 /// Of a tree that a box wants the reference to search, as it would search its own.
 constexpr Bounds k_searched_at_home{.levels = 64, .children = 8};
 
+// Whether the reference can search a tree that comes from a box: it goes wherever the tree leads, and its own lead
+// nowhere else.
+
+bool is_searchable(const Node& node) {
+    const auto searchable = [](const Node& child) { return is_searchable(child); };
+    return node.children.size() <= k_searched_at_home.children &&
+           std::all_of(node.children.begin(), node.children.end(), searchable);
+}
+
+bool is_searchable(const Bvh& bvh) {
+    struct Place {
+        std::size_t node;
+        int level;
+    };
+    std::vector<bool> reached(bvh.nodes.size());
+    std::vector<Place> rest;
+    if (!bvh.nodes.empty()) {
+        rest.push_back({.node = 0, .level = 1});
+    }
+    while (!rest.empty()) {
+        const auto [place, level] = rest.back();
+        rest.pop_back();
+        if (place >= bvh.nodes.size() || reached[place] || level > k_searched_at_home.levels) {
+            return false;
+        }
+        reached[place] = true;
+        const BvhNode& node = bvh.nodes[place];
+        const std::size_t first = node.first;
+        if (!node.is_leaf()) {
+            rest.push_back({.node = first + 1, .level = level + 1});
+            rest.push_back({.node = first, .level = level + 1});
+        } else if (first + node.count > bvh.surfaces.size()) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void read_parts(Reader& in, const SurfaceList& group, Node& node, Bounds bounds) {
     node.box = read<Box>(in);
     node.surfaces = read_entries(in, group);
@@ -269,13 +307,23 @@ void begin(const KnownTree<Bvh>& known, const Search<Bvh>& search, Reader& in) {
     }
 }
 
+/// Only where the reference stands in for a function of this step does the program offer what it asks of others: then
+/// the search may be the reference's, too.
 template <typename Tree>
-Tree ask_tree(FunctionId id, const SurfaceList& surfaces) {
+void require_searchable(const Tree& tree, FunctionId search) {
+    if (Session::offers(search) && !is_searchable(tree)) {
+        throw std::invalid_argument("the tree leads out of itself, or is too deep to be searched");
+    }
+}
+
+template <typename Tree>
+Tree ask_tree(FunctionId id, FunctionId search, const SurfaceList& surfaces) {
     const TreeId number = Trees<Tree>::all().next();
     const auto read_result = [&](Reader& in, const auto& open) {
         const std::shared_ptr<OwnGroup>& group = std::get<1>(open).group();
         Tree tree;
         read_parts(in, group->surfaces, tree, Bounds{});
+        require_searchable(tree, search);
         Trees<Tree>::all().remember(number, tree, group);
         return tree;
     };
@@ -333,6 +381,9 @@ std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in) {
     known->group = Groups::all().read(in);
     const bool is_home = Session::current().end() == Session::End::home;
     read_parts(in, known->group->scene.surfaces(), known->tree, is_home ? k_searched_at_home : Bounds{});
+    if (is_home && !is_searchable(known->tree)) {
+        throw BadMessage("a tree leads out of itself");
+    }
     trees.keep(known);
     return known;
 }
@@ -362,8 +413,12 @@ template LentTree write_search(Writer&, const Search<Bvh>&);
 template ReceivedSearch<Node> read_search(Reader&);
 template ReceivedSearch<Bvh> read_search(Reader&);
 
-Node ask_octree(const SurfaceList& surfaces) { return ask_tree<Node>(FunctionId::build_octree, surfaces); }
-Bvh ask_bvh(const SurfaceList& surfaces) { return ask_tree<Bvh>(FunctionId::build_bvh, surfaces); }
+Node ask_octree(const SurfaceList& surfaces) {
+    return ask_tree<Node>(FunctionId::build_octree, FunctionId::closest_hit_in_octree, surfaces);
+}
+Bvh ask_bvh(const SurfaceList& surfaces) {
+    return ask_tree<Bvh>(FunctionId::build_bvh, FunctionId::closest_hit_in_bvh, surfaces);
+}
 void serve_octree(Node (*build)(const SurfaceList&), Reader& in, Wire& wire) { serve_tree(build, in, wire); }
 void serve_bvh(Bvh (*build)(const SurfaceList&), Reader& in, Wire& wire) { serve_tree(build, in, wire); }
 
