@@ -58,3 +58,23 @@ def test_light_through_glass() -> None:
         assert _credit("08", case, right, f"{_line(other)} 1 {_line(at, ray[1])} 2") == 0.5
         assert _credit("08", case, right, f"{_line(other)} 1 {_line(at, ray[1])} 3") == 0
         assert _credit("08", case, right, f"{_line(other)} 1 {_line((900.0, 0.0, 0.0), ray[1])} 2") == 0
+
+
+def test_a_sample_that_only_says_what_it_is() -> None:
+    nothing = (float("nan"),) * 3
+    for case in _cases("14", "scatter_mirror"):
+        away, color = unit(add(hit_of(case.inputs).normal, (0.1, 0.2, 0.0))), (0.5, 0.25, 0.125)
+        right = f"1 {_line(away, color)} 1 1"
+        assert _credit("14", case, right, right) == 1
+        assert _credit("14", case, right, f"1 {_line(away, nothing)} 1 1") == 0.375
+        assert _credit("14", case, right, f"1 {_line(times(-1.0, away), color)} 0 0") == 0.125
+        assert _credit("14", case, right, f"1 {_line(times(-1.0, away), nothing)} 1 1") == 0
+
+
+def test_directions_that_are_no_numbers() -> None:
+    answer = functions_of("13")["scatter_diffuse"].answer
+    for case in _cases("13", "scatter_diffuse", 1):
+        amount = int(case.inputs["times"].numbers()[0])
+        given = answer.parse(" ".join(["1 nan nan nan nan nan nan nan 0"] * amount))
+        assert answer.problem(case.inputs, given, given)
+        assert answer.credit(case.inputs, given, given) == 0

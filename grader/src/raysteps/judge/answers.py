@@ -175,6 +175,11 @@ def share_right(*problems: str) -> float:
     return problems.count("") / len(problems)
 
 
+def share_beyond(easy: int, *problems: str) -> float:
+    """The same. Nothing where only some of the last `easy` parts are right: one answer to all questions has these."""
+    return share_right(*problems) if "" in problems[: len(problems) - easy] else 0.0
+
+
 # Compares numbers. Each check gives a few words about what is wrong, or nothing; the words hold no numbers, so that
 # they can be shown where the cases must stay secret.
 

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.common.vectors import Vector, cross, dot, minus, times, unit
-from raysteps.judge.answers import Answer, Tolerance, channels, direction, first, number_answer, real, share_right
+from raysteps.judge.answers import Answer, Tolerance, channels, direction, first, number_answer, real, share_beyond
 from raysteps.judge.cases.microfacets import dielectric, rough_problem, smith_lambda, units, visible_problem
 from raysteps.judge.draws import (
     Samples,
@@ -152,7 +152,7 @@ _SCATTER_MIRROR = Function(
         _read_one,
         _words_of_one,
         lambda inputs, expected, actual: first(*_mirror_problems(inputs, expected, actual)),
-        lambda inputs, expected, actual: 0.5 * share_right(*_mirror_problems(inputs, expected, actual)),
+        lambda inputs, expected, actual: 0.5 * share_beyond(2, *_mirror_problems(inputs, expected, actual)),
     ),
     (
         Group("any angle", lambda d: _mirror(d, 0.1, 0.98)),
@@ -394,7 +394,7 @@ _SCATTER_METAL = Function(
         read_samples,
         words_of_samples,
         lambda inputs, _expected, actual: first(*_metal_problems(inputs, actual)),
-        lambda inputs, _expected, actual: 0.5 * share_right(*_metal_problems(inputs, actual)),
+        lambda inputs, _expected, actual: 0.5 * share_beyond(1, *_metal_problems(inputs, actual)),
         is_drawn=True,
     ),
     (
@@ -535,7 +535,7 @@ _SCATTER_GLASS = Function(
         _read_glass,
         lambda glass: words_of_samples(glass.samples),
         lambda inputs, _expected, actual: first(*_glass_problems(inputs, actual)),
-        lambda inputs, _expected, actual: 0.5 * share_right(*_glass_problems(inputs, actual)),
+        lambda inputs, _expected, actual: 0.5 * share_beyond(1, *_glass_problems(inputs, actual)),
         is_drawn=True,
     ),
     (

@@ -16,7 +16,7 @@ from raysteps.judge.answers import (
     first,
     itself,
     number_answer,
-    share_right,
+    share_beyond,
 )
 from raysteps.judge.draws import (
     Samples,
@@ -200,7 +200,8 @@ def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     cosines = actual.directions @ np.array(normal)
     steep = cosines > _STEEP
     densities = np.maximum(cosines, 0.0) / math.pi
-    right_pdf = bool(np.all(np.abs(actual.pdfs - densities)[steep] <= _DENSITY.absolute + 1e-3 * densities[steep]))
+    near = np.abs(actual.pdfs - densities)[steep] <= _DENSITY.absolute + 1e-3 * densities[steep]
+    right_pdf = bool(steep.any() and near.all())  # of directions that are no numbers nothing is right
     return (
         _density_problem(actual.directions, normal),
         _weight_problem(actual.weights, np.array(albedo), cosines),
@@ -241,7 +242,7 @@ _SCATTER_DIFFUSE = Function(
         read_samples,
         words_of_samples,
         lambda inputs, _expected, actual: first(*_sample_problems(inputs, actual)),
-        lambda inputs, _expected, actual: 0.5 * share_right(*_sample_problems(inputs, actual)),
+        lambda inputs, _expected, actual: 0.5 * share_beyond(1, *_sample_problems(inputs, actual)),
         is_drawn=True,
     ),
     (
