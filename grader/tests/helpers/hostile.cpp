@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -69,6 +70,22 @@ int connect_to(const Words& words) {
         return answer_errno();
     }
     std::cout << "connected\n";
+    return 0;
+}
+
+// A pair of sockets that belong to each other can still write to somebody else.
+int send_to(const Words& words) {
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_DGRAM, 0, pair) != 0) {
+        return answer_errno();
+    }
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    words.at(0).copy(address.sun_path, sizeof address.sun_path - 1);
+    if (sendto(pair[0], "hello", 5, 0, reinterpret_cast<sockaddr*>(&address), sizeof address) != 5) {
+        return answer_errno();
+    }
+    std::cout << "written\n";
     return 0;
 }
 
@@ -229,6 +246,7 @@ const std::map<std::string, std::function<int(const Words&)>> ways{
     {"bomb", bomb},
     {"code", [](const Words& words) { return std::stoi(words.at(0)); }},
     {"connect", connect_to},
+    {"send", send_to},
     {"daemon", leave_a_daemon},
     {"eat", eat},
     {"environment", environment},

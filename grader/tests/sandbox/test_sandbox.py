@@ -1,8 +1,10 @@
 """Every sandbox runs honest programs, and holds those that are not."""
 
+import os
 import signal
 import socket
 import subprocess
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -104,6 +106,19 @@ def test_network_is_refused(sandbox: Sandbox, misbehave: Misbehave) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = str(server.getsockname()[1])
         assert misbehave(sandbox, "connect", port).outcome.code == 1
+
+
+def test_nobody_outside_is_written_to(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    """By one of two sockets that belong to each other, to one that has a name in a folder of everybody's."""
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder, socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as heard:
+        Path(folder).chmod(0o755)
+        path = Path(folder, "socket")
+        heard.bind(str(path))
+        path.chmod(0o666)
+        heard.settimeout(0.1)
+        assert misbehave(sandbox, "send", str(path)).outcome.code == 1
+        with pytest.raises(TimeoutError):
+            heard.recv(10)
 
 
 def test_a_program_cannot_read_secrets(sandbox: Sandbox, misbehave: Misbehave, secret: Path) -> None:

@@ -93,18 +93,20 @@ _NUMBER, _ARCHITECTURE, _FIRST_ARGUMENT = 0, 4, 16
 _X32 = 0x40000000
 _NEW_NAMESPACES = 0x7E020000  # CLONE_NEWNS, NEWCGROUP, NEWUTS, NEWIPC, NEWUSER, NEWPID, NEWNET
 
-# Sockets: no network. Memory without a file or a process: no limit would count it. The rest: the kernel's rarely
-# used corners, other processes, keys that outlive the task.
+# Sockets, also two that belong to each other: no network, and nobody who listens under a name. Memory without a file or
+# a process: no limit would count it. The rest: the kernel's rarely used corners and its log, other processes, keys that
+# outlive the task.
 _X86_64 = {
-    "socket": 41, "shmget": 29, "semget": 64, "msgget": 68, "mq_open": 240, "memfd_create": 319, "memfd_secret": 447,
+    "socket": 41, "socketpair": 53, "syslog": 103, "shmget": 29, "semget": 64, "msgget": 68, "mq_open": 240,
+    "memfd_create": 319, "memfd_secret": 447,
     "ptrace": 101, "process_vm_readv": 310, "process_vm_writev": 311, "kcmp": 312, "pidfd_getfd": 438,
     "add_key": 248, "request_key": 249, "keyctl": 250, "bpf": 321, "perf_event_open": 298, "userfaultfd": 323,
     "io_uring_setup": 425, "open_by_handle_at": 304, "unshare": 272, "setns": 308, "mount": 165, "umount2": 166,
     "pivot_root": 155, "open_tree": 428, "move_mount": 429, "fsopen": 430,
 }  # fmt: skip
 _AARCH64 = {
-    "socket": 198, "shmget": 194, "semget": 190, "msgget": 186, "mq_open": 180, "memfd_create": 279,
-    "memfd_secret": 447, "ptrace": 117, "process_vm_readv": 270, "process_vm_writev": 271, "kcmp": 272,
+    "socket": 198, "socketpair": 199, "syslog": 116, "shmget": 194, "semget": 190, "msgget": 186, "mq_open": 180,
+    "memfd_create": 279, "memfd_secret": 447, "ptrace": 117, "process_vm_readv": 270, "process_vm_writev": 271, "kcmp": 272,
     "pidfd_getfd": 438, "add_key": 217, "request_key": 218, "keyctl": 219, "bpf": 280, "perf_event_open": 241,
     "userfaultfd": 282, "io_uring_setup": 425, "open_by_handle_at": 265, "unshare": 97, "setns": 268, "mount": 40,
     "umount2": 39, "pivot_root": 41, "open_tree": 428, "move_mount": 429, "fsopen": 430,
