@@ -1,6 +1,5 @@
 """Every sandbox runs honest programs, and holds those that are not."""
 
-import os
 import signal
 import socket
 import subprocess

@@ -1,9 +1,12 @@
 """What a submission may look like, and what is left outside."""
 
 import io
+import lzma
 import os
+import struct
 import tarfile
 import zipfile
+import zlib
 from contextlib import suppress
 from pathlib import Path
 from typing import Literal
@@ -167,6 +170,29 @@ def test_a_tar_bomb_is_refused(tmp_path: Path, steps: list[Step], monkeypatch: p
     monkeypatch.setattr(entries, "MAX_UNPACKED", 2 << 20)
     path = _tar(tmp_path / "a.tgz", {"zeros": b"\0" * (3 << 20), "intersection.cpp": b"int x;"})
     with pytest.raises(UsageError, match="MB unpacked"):
+        load_submission(path, steps)
+
+
+def _xz_of(data: bytes, dictionary: int) -> bytes:
+    """As if the file had been compressed with so large a dictionary: 40 is four gigabytes."""
+    packed = bytearray(lzma.compress(data))
+    size = 4 * (packed[12] + 1)
+    packed[packed.index(b"\x21\x01", 12) + 2] = dictionary
+    packed[12 + size - 4 : 12 + size] = struct.pack("<I", zlib.crc32(packed[12 : 12 + size - 4]))
+    return bytes(packed)
+
+
+def test_a_decoder_gets_no_gigabytes(tmp_path: Path, steps: list[Step]) -> None:
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w") as archive:
+        info = tarfile.TarInfo(f"steps/{steps[0].path.as_posix()}")
+        info.size = 4
+        archive.addfile(info, io.BytesIO(b"int;"))
+    path = tmp_path / "handed-in.tar.xz"
+    path.write_bytes(_xz_of(buffer.getvalue(), 24) + b"more")  # 16 MB, and what some programs add
+    assert set(load_submission(path, steps).sources) == {steps[0].id}
+    path.write_bytes(_xz_of(buffer.getvalue(), 40))
+    with pytest.raises(UsageError, match=r"[Mm]emory"):
         load_submission(path, steps)
 
 

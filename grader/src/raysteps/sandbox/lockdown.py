@@ -106,7 +106,8 @@ _X86_64 = {
 }  # fmt: skip
 _AARCH64 = {
     "socket": 198, "socketpair": 199, "syslog": 116, "shmget": 194, "semget": 190, "msgget": 186, "mq_open": 180,
-    "memfd_create": 279, "memfd_secret": 447, "ptrace": 117, "process_vm_readv": 270, "process_vm_writev": 271, "kcmp": 272,
+    "memfd_create": 279, "memfd_secret": 447,
+    "ptrace": 117, "process_vm_readv": 270, "process_vm_writev": 271, "kcmp": 272,
     "pidfd_getfd": 438, "add_key": 217, "request_key": 218, "keyctl": 219, "bpf": 280, "perf_event_open": 241,
     "userfaultfd": 282, "io_uring_setup": 425, "open_by_handle_at": 265, "unshare": 97, "setns": 268, "mount": 40,
     "umount2": 39, "pivot_root": 41, "open_tree": 428, "move_mount": 429, "fsopen": 430,
