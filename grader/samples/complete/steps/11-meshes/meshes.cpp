@@ -116,7 +116,7 @@ float mip_level(float texels, int levels) {
 Color trilinear(const Pyramid& pyramid, const glm::vec2& uv, float level, Wrap wrap) {
     const auto finer = static_cast<std::size_t>(level);
     const std::size_t coarser = std::min(finer + 1, pyramid.size() - 1);
-    return glm::mix(bilinear(pyramid[finer], uv, wrap), bilinear(pyramid[coarser], uv, wrap),
+    return glm::mix(bilinear(pyramid.at(finer), uv, wrap), bilinear(pyramid.at(coarser), uv, wrap),
                     level - static_cast<float>(finer));
 }
 
