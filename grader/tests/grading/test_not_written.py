@@ -60,6 +60,22 @@ def _assert_costs_itself_only(kit: BuiltKit, step: Step, function: str, result: 
     assert 0 < result.points < result.max
 
 
+@pytest.mark.parametrize(
+    ("number", "tree", "of"), [("06", "octree", "const Node& root"), ("09", "bvh", "const Bvh& bvh")]
+)
+def test_a_search_may_call_one_that_is_not_written(
+    kit: BuiltKit, number: str, tree: str, of: str, tmp_path: Path
+) -> None:
+    """It asks no surface itself: those count that are asked for it."""
+    step = next(step for step in kit.steps if step.number == number)
+    head = f"bool occluded_in_{tree}({of}, const Ray& ray, float distance) {{\n"
+    call = f"const auto met = closest_hit_in_{tree}({of.split()[-1]}, ray);\nreturn met && met->distance < distance;\n"
+    result = _graded(kit, step, _without(kit, step, f"closest_hit_in_{tree}", head, head + call), tmp_path)
+    (found,) = (item for item in result.hidden if item.name == f"occluded_in_{tree}")
+    wrong = {group.name for group in found.groups if group.right < group.cases}
+    assert wrong <= {"few surfaces are asked", "the first hit ends the search"}, found.message
+
+
 @pytest.mark.parametrize(("number", "function"), _IN_A_BOX)
 def test_it_costs_its_own_points_only(kit: BuiltKit, number: str, function: str, tmp_path: Path) -> None:
     step = next(step for step in kit.steps if step.number == number)
