@@ -104,8 +104,8 @@ struct Bounds {
 /// Of a tree that a box wants the reference to search, as it would search its own.
 constexpr Bounds k_searched_at_home{.levels = 64, .children = 8};
 
-// Whether the reference can search a tree that comes from a box: it goes wherever the tree leads, and its own lead
-// nowhere else.
+// Whether the reference can search a tree that comes from a box. A search follows every number in a tree; a tree of the
+// reference's own never leads out.
 
 bool is_searchable(const Node& node) {
     const auto searchable = [](const Node& child) { return is_searchable(child); };
@@ -312,7 +312,8 @@ void begin(const KnownTree<Bvh>& known, const Search<Bvh>& search, Reader& in) {
 template <typename Tree>
 void require_searchable(const Tree& tree, FunctionId search) {
     if (Session::offers(search) && !is_searchable(tree)) {
-        throw std::invalid_argument("the tree leads out of itself, or is too deep to be searched");
+        throw std::invalid_argument(
+            "the tree leads out of itself, has more than 64 levels, or more than 8 boxes in one");
     }
 }
 

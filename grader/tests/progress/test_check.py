@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -11,14 +12,16 @@ from typing import Any
 import pytest
 from conftest import Sources
 from course_fakes import checked, small_project, write_own
+from rich.console import Console
 
+from raysteps.cli import check as check_command
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.progress import check, own_check
 from raysteps.report.attempts import read_attempts
 from raysteps.report.student import REPORT
-from raysteps.results.model import Results
+from raysteps.results.model import Diagnosis, Results
 from raysteps.results.store import read_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
@@ -124,6 +127,25 @@ def test_what_is_found_is_there_before_its_mistakes_have_names(
     assert told == [True]
     assert [result.points for result in read_results(out / "results.json").steps] == [3]
     assert [attempt.points for attempt in read_attempts(out)] == [3]
+
+
+@pytest.mark.parametrize("named", [False, True])
+def test_whoever_waits_for_known_mistakes_hears_what_came_of_it(
+    course: Project, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], named: bool
+) -> None:
+    monkeypatch.setattr(Project, "has_reference", True)
+
+    def find_and_learn(project: Project, _chosen: Any, _say: Any, tell: Callable[[own_check.CheckResult], None]) -> Any:
+        results = checked(read_steps(project)[0], "partial", 3)
+        kit: Any = SimpleNamespace(steps=read_steps(project))
+        tell(own_check.CheckResult(kit, results, None, None))
+        results.steps[0].diagnoses += [Diagnosis("mistake", "one", "the one mistake", "", "", "", [])] if named else []
+        return own_check.CheckResult(kit, results, None, None)
+
+    monkeypatch.setattr(check_command, "check_steps", find_and_learn)
+    assert check_command.run(course, Namespace(steps=["01"]), Console(width=200)) == 1
+    said = capsys.readouterr().out
+    assert ("the one mistake" in said, "none of them explains" in said) == (named, not named)
 
 
 def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: Project) -> None:

@@ -44,8 +44,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         tell(checked)
     elif any(result.diagnoses for result in checked.results.steps):
         print_diagnoses(console, checked.results)
-    elif project.has_reference:  # then known mistakes were learned meanwhile
-        console.print("No known mistake explains what is wrong.")
+    elif project.has_reference:  # then somebody has waited
+        console.print("The known mistakes are learned; none of them explains what is wrong.")
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:
         console.print(f"Next: {watch_command(checked.following.id)}")

@@ -107,7 +107,7 @@ def _before(kit: BuiltKit, step: Step, picture: Picture) -> Mapping[str, Pixels]
     return {name: Terms(kit, step.index, picture).at_step(earlier)}
 
 
-_HAS_SOME = 0.25  # of the pixels that the step changes in a picture: they do not look as before it
+_HAS_SOME = 0.25  # of the pixels that the step changes in a picture: so many are right
 
 
 def _is_elsewhere(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture], seen_in: Collection[str]) -> bool:
@@ -115,7 +115,7 @@ def _is_elsewhere(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture], se
     for name, picture in pictures.items():
         for before in _before(kit, step, picture).values() if name not in seen_in else ():
             added = differing(before, picture.reference)
-            if (differing(before, picture.mine) & added).sum() > _HAS_SOME * added.sum():
+            if (added & ~differing(picture.mine, picture.reference)).sum() > _HAS_SOME * added.sum():
                 return True
     return False
 

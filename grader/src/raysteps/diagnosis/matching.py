@@ -187,7 +187,8 @@ def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) ->
         elif spoils(drawn, picture):
             found.against.append(name)
             found.spoils_right = True
-            found.refuted |= drawn is not None and not picture.case.has_tree
+            is_drawn = drawn is not None and drawn.shape == picture.reference.shape
+            found.refuted |= is_drawn and not picture.case.has_tree
     return found
 
 

@@ -176,7 +176,8 @@ def share_right(*problems: str) -> float:
 
 
 def share_beyond(easy: int, *problems: str) -> float:
-    """The same. Nothing where only some of the last `easy` parts are right: one answer to all questions has these."""
+    """As `share_right`, but 0 where only some of the last `easy` parts are right: one answer to all questions has
+    these."""
     return share_right(*problems) if "" in problems[: len(problems) - easy] else 0.0
 
 

@@ -29,46 +29,6 @@ _HEADERS = (
 )
 
 
-_MAX_XZ = 256 << 20  # bytes that a decoder may need; the strongest usual compression needs 65 MB
-_PIECE = 1 << 16
-
-
-class _Xz(io.RawIOBase):
-    """What lzma.LZMAFile reads, but for files whose decoder would take gigabytes, as a few bytes may ask for."""
-
-    def __init__(self, raw: IO[bytes]) -> None:
-        self._raw = raw
-        self._decoder = lzma.LZMADecompressor(memlimit=_MAX_XZ)
-        self._is_first = True
-        self._at_end = False
-
-    def read(self, size: int = -1, /) -> bytes:
-        while not self._at_end:
-            packed = self._next_packed()
-            try:
-                data = self._decoder.decompress(packed, size) if packed is not None else b""
-            except lzma.LZMAError:
-                if self._is_first:
-                    raise
-                packed, data = None, b""  # something else follows
-            self._at_end = packed is None
-            if data:
-                return data
-        return b""
-
-    def _next_packed(self) -> bytes | None:
-        if not self._decoder.eof:
-            packed = self._raw.read(_PIECE) if self._decoder.needs_input else b""
-            if not packed and self._decoder.needs_input:
-                raise EOFError("the compressed file is cut off")
-            return packed
-        packed = self._decoder.unused_data or self._raw.read(_PIECE)
-        if not packed:
-            return None
-        self._decoder, self._is_first = lzma.LZMADecompressor(memlimit=_MAX_XZ), False
-        return packed
-
-
 def _unpacked(raw: IO[bytes]) -> IO[bytes]:
     start = raw.read(6)
     raw.seek(0)
@@ -77,7 +37,7 @@ def _unpacked(raw: IO[bytes]) -> IO[bytes]:
     if start.startswith(b"BZh"):
         return bz2.BZ2File(raw)
     if start.startswith((b"\xfd7zXZ", b"\x5d\x00\x00")):
-        return cast(IO[bytes], _Xz(raw))
+        return lzma.LZMAFile(raw)
     return raw
 
 
@@ -218,6 +178,7 @@ DAMAGED = (
     NotImplementedError,
     LookupError,
     OverflowError,
+    MemoryError,  # a few bytes may ask for a dictionary of gigabytes
 )
 _FOREIGN = {
     b"Rar!": "a RAR archive",
