@@ -1,7 +1,5 @@
 """What is said when a step does not build."""
 
-from collections.abc import Sequence
-
 import pytest
 
 from raysteps.common.process import Outcome
@@ -30,20 +28,22 @@ def test_the_students_own_file_comes_first_with_the_lines_around_it(shadows: Ste
 
 
 @pytest.mark.parametrize(
-    ("lines", "told"),
+    ("said", "told"),
     [
-        ([4], ""),
-        ([4, 4], ""),
-        ([4, 3], "\nThere are more errors, in line 3: mend this one first."),
-        ([4, 5, 4, 3], "\nThere are more errors, in lines 5 and 3: mend this one first."),
-        (range(1, 9), "\nThere are more errors, in lines 2, 3, 4, 5 and 6, and further on: mend this one first."),
+        (["4: nope"], ""),
+        (["4: nope", "4: nope"], ""),
+        (["4: nope", "4: what"], "    4 | what"),
+        (["4: nope", "5: x", "4: nope", "3: y"], "    5 | x\n    3 | y"),
+        ([f"{line}: x" for line in range(1, 9)], "    2 | x\n    3 | x\n    4 | x\n      | and 4 more"),
     ],
 )
-def test_more_errors_are_told_by_their_lines(shadows: Step, lines: Sequence[int], told: str) -> None:
-    output = "".join(f"/in/1/shadows.cpp:{line}:1: error: nope\n/in/0/other.hpp:7:1: error: x\n" for line in lines)
-    shown, _, rest = compile_message(shadows, SOURCE, ran(output)).partition("\nThere")
-    assert shown.startswith(f"It does not build: shadows.cpp:{lines[0]}:1: nope\n")
-    assert (f"\nThere{rest}" if rest else "") == told
+def test_more_errors_are_told_in_a_line_each(shadows: Step, said: list[str], told: str) -> None:
+    output = "".join(
+        f"/in/1/shadows.cpp:{one.replace(': ', ':1: error: ')}\n/in/0/b.hpp:7:1: error: z\n" for one in said
+    )
+    shown, _, rest = compile_message(shadows, SOURCE, ran(output)).partition("\nMore errors, ")
+    assert shown.startswith(f"It does not build: shadows.cpp:{said[0].replace(': ', ':1: ')}\n")
+    assert rest.partition("\n")[2] == told
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.progress import check, own_check
 from raysteps.report.attempts import read_attempts
 from raysteps.report.student import REPORT
-from raysteps.results.model import Diagnosis, Results
+from raysteps.results.model import Diagnosis, Results, Termination, TestResult
 from raysteps.results.store import read_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
@@ -99,6 +99,23 @@ def test_what_was_found_before_outlives_a_check_that_fails(course: Project, monk
     assert [result.id[:2] for result in read_results(course.build / "check" / "results.json").steps] == ["01"]
 
 
+def test_an_interrupted_check_leaves_a_page_of_the_other_steps(
+    course: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _check(course, 1, 2)
+
+    def fail(*_: Any, **__: Any) -> Results:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as interrupted:
+        interrupted.setattr(own_check, "_look_through", fail)
+        with pytest.raises(KeyboardInterrupt):
+            _check(course, 2)
+    assert "step-01" in _page(course)
+    assert "step-02" not in _page(course)
+    assert _check(course, 2) == ["01", "02"]
+
+
 def test_what_is_found_is_there_before_its_mistakes_have_names(
     course: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -129,14 +146,16 @@ def test_what_is_found_is_there_before_its_mistakes_have_names(
     assert [attempt.points for attempt in read_attempts(out)] == [3]
 
 
-@pytest.mark.parametrize("named", [False, True])
+@pytest.mark.parametrize(("named", "outcome"), [(False, "wrong"), (True, "wrong"), (False, "crashed")])
 def test_whoever_waits_for_known_mistakes_hears_what_came_of_it(
-    course: Project, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], named: bool
-) -> None:
+    course: Project, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+    named: bool, outcome: Termination,
+) -> None:  # fmt: skip
     monkeypatch.setattr(Project, "has_reference", True)
 
     def find_and_learn(project: Project, _chosen: Any, _say: Any, tell: Callable[[own_check.CheckResult], None]) -> Any:
         results = checked(read_steps(project)[0], "partial", 3)
+        results.steps[0].tests = [TestResult("one", False, outcome=outcome)]
         kit: Any = SimpleNamespace(steps=read_steps(project))
         tell(own_check.CheckResult(kit, results, None, None))
         results.steps[0].diagnoses += [Diagnosis("mistake", "one", "the one mistake", "", "", "", [])] if named else []
@@ -145,7 +164,7 @@ def test_whoever_waits_for_known_mistakes_hears_what_came_of_it(
     monkeypatch.setattr(check_command, "check_steps", find_and_learn)
     assert check_command.run(course, Namespace(steps=["01"]), Console(width=200)) == 1
     said = capsys.readouterr().out
-    assert ("the one mistake" in said, "none of them explains" in said) == (named, not named)
+    assert ("the one mistake" in said, "none of them explains" in said) == (named, not named and outcome == "wrong")
 
 
 def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: Project) -> None:

@@ -1,21 +1,26 @@
 """What `watch` learns of a step at once, with real programs."""
 
 import dataclasses
+import io
 import json
 import subprocess
 from pathlib import Path
 
 import pytest
 from conftest import Sources
+from rich.console import Console
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.course.stubs import make_stub
 from raysteps.results.model import StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Task, TaskResult
 from raysteps.toolchain.compile import KeptLibraries, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit
 from raysteps.watch.runner import WORKER
+from raysteps.watch.step_view import StepView, verdict
+from raysteps.watch.terminal_view import TerminalView
 from raysteps.watch.worker import QuickLook
 
 _ID = "07-tone-mapping"
@@ -98,6 +103,22 @@ def test_a_crash_is_told_of_each_test(kit: BuiltKit, step: Step, solved: Sources
     assert "crashed" in {test.outcome for test in result.tests}
     assert "ok" in {test.outcome for test in result.tests}
     assert "crashed" in result.images[0].message
+
+
+def test_what_is_not_written_is_said_and_no_mistake(
+    project: Project, kit: BuiltKit, step: Step, tmp_path: Path
+) -> None:
+    """Pictures wait for it, too."""
+    source = make_stub((project.solutions / step.path).read_text(encoding="utf-8"), step, ["to_byte"])
+    result, _ = _look(kit, step, source, tmp_path)
+    assert result.messages == ["Not written yet: tone_map."]
+    assert {image.waits_for for image in result.images if not image.passed} == {"tone_map"}
+    console = Console(file=io.StringIO(), width=200)
+    view = StepView(step, "idle", result=result, complete=True)
+    TerminalView(console).result(view)
+    assert isinstance(console.file, io.StringIO)
+    assert console.file.getvalue().splitlines()[1].strip() == "Not written yet: tone_map."
+    assert verdict(view)[0] == "warn"
 
 
 def test_the_stub_shows_where_it_goes(kit: BuiltKit, step: Step, unsolved: Sources, tmp_path: Path) -> None:

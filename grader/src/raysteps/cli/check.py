@@ -17,11 +17,19 @@ from raysteps.report.wording import replay_command, watch_command
 
 if TYPE_CHECKING:
     from raysteps.progress.own_check import CheckResult
+    from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which steps."""
     parser.add_argument("steps", nargs="*", metavar="STEP", help=f"{STEPS_HELP}; all when none is given")
+
+
+def _is_unexplained(result: StepResult) -> bool:
+    """Wrong, and neither for want of a function nor by a crash or a hang, of which the line is told."""
+    items: list[TestResult | ImageResult | HiddenResult] = [*result.tests, *result.images, *result.hidden]
+    wrong = [item for item in items if not item.passed and not item.waits_for]
+    return bool(wrong) and all(item.outcome == "wrong" for item in wrong)
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
@@ -44,7 +52,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         tell(checked)
     elif any(result.diagnoses for result in checked.results.steps):
         print_diagnoses(console, checked.results)
-    elif project.has_reference:  # then somebody has waited
+    elif project.has_reference and any(map(_is_unexplained, checked.results.steps)):  # and somebody has waited
         console.print("The known mistakes are learned; none of them explains what is wrong.")
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:

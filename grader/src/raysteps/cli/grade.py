@@ -128,6 +128,7 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         with one_at_a_time(room / "locks" / lock, lambda: say(f"waiting for another command, which grades into {out}")):
             submission = load_submission(options.submission, read_steps(project))
             kit = build_kit(project, say)
+            replaces = (out / "results.json").exists() and bool(options.settings.only)
             clear(out, kit.steps, kit.steps)
             jobs = options.jobs or os.cpu_count() or 1
             results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs, course=course)
@@ -139,6 +140,8 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         console.print()
     print_table(console, told)
     print_isolation(console, results)
+    if replaces:
+        console.print("These steps take the place of all that was graded into this folder before.")
     if options.out is None and room != project.build:
         console.print("Results were not kept: the kit may only be read here. Name a folder for them with --out.")
     else:

@@ -10,7 +10,7 @@ from raysteps.toolchain.compile import Compiled
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
-_MAX_MORE = 5  # lines with errors that are told besides the first
+_MAX_MORE = 3  # errors that are told in a line each, besides the first
 _ERROR = re.compile(
     r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",
     re.M,
@@ -63,17 +63,15 @@ def _context(source: str, line: int, column: int) -> str:
 
 
 def _more(errors: list[_Error]) -> str:
-    """Where else errors are, which often follow from the first."""
-    lines = [str(line) for line in dict.fromkeys(error.line for error in errors)][1:]
-    if not lines:
-        return ""
-    where = f"line {lines[0]}" if len(lines) == 1 else f"lines {join_and(lines[:_MAX_MORE])}"
-    where += ", and further on" if len(lines) > _MAX_MORE else ""
-    return f"\nThere are more errors, in {where}: mend this one first."
+    """Those that follow, of which the first may be the cause."""
+    _, *others = dict.fromkeys((error.line, error.text) for error in errors)
+    told = "".join(f"\n{line:5} | {shorten(text, 160)}" for line, text in others[:_MAX_MORE])
+    further = f"\n      | and {len(others) - _MAX_MORE} more" if len(others) > _MAX_MORE else ""
+    return f"\nMore errors, which may all come from that one:{told}{further}" if others else ""
 
 
 def compile_message(step: Step, source: str, ran: TaskResult) -> str:
-    """One sentence, the place, the lines, and where else."""
+    """One sentence, the place, the lines, and what else."""
     if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
         return f"It does not build: the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
     if ran.stopped == "memory":

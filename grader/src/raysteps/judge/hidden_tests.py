@@ -274,6 +274,12 @@ def _keeps_something(judged: Sequence[JudgedCase]) -> bool:
     return False
 
 
+_PARTLY = (
+    " Answers that come near, or are right in part, earn something; a function that is wrong somewhere earns two "
+    "thirds at most."
+)
+
+
 def _earns_in_part(group: CaseGroup) -> bool:
     return group.share - group.right / group.cases >= _TOLD
 
@@ -286,7 +292,7 @@ def _in_words(group: CaseGroup) -> str:
 def _message(name: str, groups: Sequence[CaseGroup], wrong: Sequence[CaseGroup], found: JudgedCase, kept: bool) -> str:
     right = len(groups) - len(wrong)
     kinds = "; ".join(map(_in_words, wrong))
-    partly = " Answers that come near, or are right in part, earn something." if any(map(_earns_in_part, wrong)) else ""
+    partly = _PARTLY if any(map(_earns_in_part, wrong)) else ""
     text = f"{name}: {right} of {count(len(groups), 'kind')} of cases {'is' if right == 1 else 'are'} right; "
     again = _KEPT if kept and found.case.group == AGAIN else ""
     return f"{text}wrong: {kinds}.{partly} In a case of '{found.case.group}': {found.verdict.problem}.{again}"

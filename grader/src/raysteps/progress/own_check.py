@@ -115,7 +115,12 @@ def check_and_keep(
         if tell is not None:
             tell(found)
 
-    return keep(_look_through(kit, submission, chosen, ahead, out, say, first, draws_large=tell is not None))
+    try:
+        return keep(_look_through(kit, submission, chosen, ahead, out, say, first, draws_large=tell is not None))
+    except KeyboardInterrupt:
+        if before is not None and not noted:  # the page of the other steps, which nobody has to check again
+            try_student_page(out, kit.steps, say, own_progress(project, out, standings(project)))
+        raise
 
 
 def own_progress(project: Project, folder: Path, found: Sequence[Standing]) -> OwnProgress:

@@ -161,4 +161,6 @@ def verdict(view: StepView) -> tuple[Tone, str]:
     if view.full:
         tone: Tone = "warn" if result.points else "bad"
         return tone, f"{tenths(result.points)} of {tenths(result.max)} points: {tally(result)}."
-    return ("good" if view.status == "passed" else "bad"), f"{tally(result)}."
+    items: Items = [*result.tests, *result.images]
+    waits = view.status != "passed" and all(item.passed or item.waits_for for item in items)
+    return ("good" if view.status == "passed" else "warn" if waits else "bad"), f"{tally(result)}."

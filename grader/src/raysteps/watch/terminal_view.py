@@ -98,6 +98,8 @@ class TerminalView:
         if view.full:
             self._tests([test for test in view.failed_tests if _is_news(test, view.looked)][:1])
         else:
+            for message in view.result.messages:
+                self.line(f"  {message}")
             self._tests(view.failed_tests)
             self._pictures(view.result)
         self._diagnoses(view.result)

@@ -113,14 +113,18 @@ class QuickLook:
         self.tell(result)
         result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits)
         gallery.stopped_in(result.tests)
-        set_aside(result, self.step, self.kit.tests[self.step.id], source)
-        self.tell(result)
+        self._tell_what_waits(result, source)
         for case in self.step.images:
             result.images.append(judge(gallery, raytrace, self.step, case))
-            self.tell(result)
+            self._tell_what_waits(result, source)
         passed = [item.passed for items in (result.tests, result.images) for item in items]
         result.status = "passed" if all(passed) else "partial" if any(passed) else "failed"
         return result
+
+    def _tell_what_waits(self, result: StepResult, source: str) -> None:
+        result.messages = []
+        set_aside(result, self.step, self.kit.tests[self.step.id], source)
+        self.tell(result)
 
 
 def _does_not_build(result: StepResult, message: str) -> StepResult:
