@@ -73,3 +73,17 @@ def test_the_course_is_told_to_what_writes_the_results(
     command.grade(project, command.GradeOptions(tmp_path / "ann", out, Settings()), Console(file=io.StringIO()))
     assert told["course"] == "Optics, 2026"
     assert not (out / "results.json").exists()  # written once, and not here
+
+
+def test_what_was_graded_into_the_folder_before_is_not_replaced_in_silence(
+    monkeypatch: pytest.MonkeyPatch, project: Project, steps: list[Step], tmp_path: Path
+) -> None:
+    _grades_to(monkeypatch, document_of([wrong_step(steps[2], tmp_path)]), steps)
+    said = []
+    for only in ((), (steps[2].id,)):
+        console = Console(file=io.StringIO(), width=200)
+        (tmp_path / "out").mkdir(exist_ok=True)
+        (tmp_path / "out" / "results.json").write_text("{}")
+        command.grade(project, command.GradeOptions(tmp_path, tmp_path / "out", Settings(only=only)), console)
+        said.append("take the place of all that was graded" in console.file.getvalue())  # type: ignore[attr-defined]
+    assert said == [False, True]
