@@ -4,7 +4,9 @@ import dataclasses
 import io
 import json
 import subprocess
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from conftest import Sources
@@ -13,11 +15,12 @@ from rich.console import Console
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import make_stub
-from raysteps.results.model import StepResult
+from raysteps.results.model import StepResult, TestResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Task, TaskResult
 from raysteps.toolchain.compile import KeptLibraries, StudentBuild, build_log
 from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.watch import worker
 from raysteps.watch.runner import WORKER
 from raysteps.watch.step_view import StepView, verdict
 from raysteps.watch.terminal_view import TerminalView
@@ -119,6 +122,21 @@ def test_what_is_not_written_is_said_and_no_mistake(
     assert isinstance(console.file, io.StringIO)
     assert console.file.getvalue().splitlines()[1].strip() == "Not written yet: tone_map."
     assert verdict(view)[0] == "warn"
+
+
+def test_nobody_waits_in_silence_for_what_hangs(
+    kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stopped = TestResult("to_byte", False, "It was stopped.", outcome="timeout")
+
+    def hang(*words: Any) -> list[TestResult]:
+        words[-1]("stopped: to_byte")
+        return [replace(stopped, name=name) for name in kit.tests[_ID]]
+
+    monkeypatch.setattr(worker, "run_tests", hang)
+    said: list[str] = []
+    QuickLook(kit, step, LimitsOnly(), tmp_path, say=said.append).look(solved[_ID])
+    assert said == ["stopped: to_byte"]
 
 
 def test_the_stub_shows_where_it_goes(kit: BuiltKit, step: Step, unsolved: Sources, tmp_path: Path) -> None:

@@ -39,7 +39,7 @@ from raysteps.submission.entries import RejectedFile
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.compile import Program, StudentBuild, build_log, own_libraries
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.watch.events import WorkerLine
 
 # What can be told of a step within a second or two: whether it builds, its visible tests and its pictures.
@@ -50,13 +50,14 @@ ReportCallback = Callable[[StepResult], None]
 @dataclass(frozen=True)
 class QuickLook:
     """One step between steps of the reference, in a students' kit between the student's own; without the judge. `tell`
-    hears of each part when it is done."""
+    hears of each part when it is done, and `say` of waits."""
 
     kit: BuiltKit
     step: Step
     sandbox: Sandbox
     out: Path
     tell: ReportCallback = lambda result: None
+    say: ProgressCallback = lambda text: None
 
     def look(self, source: str) -> StepResult:
         """No points: they are for a check to say."""
@@ -111,7 +112,7 @@ class QuickLook:
             return result
         gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
-        result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits)
+        result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits, self.say)
         gallery.stopped_in(result.tests)
         self._tell_what_waits(result, source)
         for case in self.step.images:
@@ -161,7 +162,7 @@ def look(project: Project, name: str) -> None:
     if source is None:
         _tell(WorkerLine(error=f"{step.file} is not there; {own_command()} reset {step.number} puts the stub there"))
         return
-    tell(QuickLook(kit, step, LimitsOnly(), out, tell).look(source.decode("utf-8", "replace")), complete=True)
+    tell(QuickLook(kit, step, LimitsOnly(), out, tell, _say).look(source.decode("utf-8", "replace")), complete=True)
 
 
 def check(project: Project, name: str) -> None:
