@@ -22,8 +22,9 @@ from itertools import pairwise
 from pathlib import Path, PurePosixPath
 
 from raysteps.common.files import write_json
-from raysteps.course.project import Project, fingerprint
+from raysteps.course.project import Project
 from raysteps.course.tracked_files import places
+from raysteps.toolchain.fingerprint import fingerprint
 
 Belongs = Callable[[str], bool]  # whether a file counts, by its place in the repository
 
