@@ -9,11 +9,23 @@ import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import cast
 
 import pytest
 
 from raysteps.common.errors import UsageError
-from raysteps.play.packages import CATCH2, CLANG, EDITOR, REGISTRY, Header, Package, fetch, fetch_header, registry_of
+from raysteps.play.packages import (
+    CATCH2,
+    CLANG,
+    EDITOR,
+    REGISTRY,
+    Header,
+    Package,
+    extract,
+    fetch,
+    fetch_header,
+    registry_of,
+)
 
 pytestmark = pytest.mark.portable
 
@@ -68,6 +80,23 @@ def registry() -> Iterator[_Registry]:
     yield found
     found.shutdown()
     found.server_close()
+
+
+class _OlderArchive:
+    """As Python 3.11.2 has it, and with that Debian 12."""
+
+    def __init__(self) -> None:
+        self.unpacked: list[Path] = []
+
+    def extractall(self, path: Path) -> None:
+        self.unpacked.append(path)
+
+
+def test_an_older_python_unpacks_as_well(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(tarfile, "data_filter", raising=False)
+    archive = _OlderArchive()
+    extract(cast(tarfile.TarFile, archive), tmp_path)
+    assert archive.unpacked == [tmp_path]
 
 
 def test_a_package_is_loaded_down_once(registry: _Registry, tmp_path: Path) -> None:

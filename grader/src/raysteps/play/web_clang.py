@@ -13,7 +13,7 @@ from typing import Any
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import one_at_a_time, write_bytes
 from raysteps.common.text import shorten
-from raysteps.play.packages import new_folder
+from raysteps.play.packages import extract, new_folder
 
 # Exceptions are the engine's own; floats are as exact as everywhere in the kit, so that pictures are the same.
 _FLAGS = ("-std=c++20", "-DNDEBUG", "-ffp-contract=off", "-fwasm-exceptions", "-mllvm", "-wasm-use-legacy-eh=false")
@@ -66,7 +66,7 @@ class WebClang:
         folder = self.cache / f"{self._package.name}-system"
         if not folder.is_dir():
             with new_folder(folder) as new, tarfile.open(self._package / "gen" / "llvm-resources.tar") as archive:
-                archive.extractall(new / folder.name, filter="data")
+                extract(archive, new / folder.name)
         return folder
 
     @cached_property
