@@ -311,9 +311,10 @@ def set_aside(
     source: str,
     *,
     replaced: bool = False,
-) -> None:
+) -> list[str]:
     """Where a RAYSTEPS_TODO is left, what failed says what it waits for, and such tests come last. `tests`: the
-    functions of each; `replaced`: the reference's functions stood in for those that are not written."""
+    functions of each; `replaced`: the reference's functions stood in for those that are not written. Returns the
+    functions that something waits for."""
     unfinished = unfinished_functions(source, step)
     called = set() if replaced else called_functions(source, unfinished)
     for test in result.tests:
@@ -329,9 +330,7 @@ def set_aside(
             item.waits_for = _missing(step, [item.name], unfinished, called)
     pictures: list[ImageResult | HiddenResult] = [*result.images]
     pictures += [item for item in result.hidden if item.kind == "picture"]
-    for picture in pictures:
-        if waiting and not picture.passed:
-            picture.waits_for, picture.message = waiting[0], f"It waits for {waiting[0]}, not written yet."
+    set_pictures_aside(pictures, waiting)
     result.tests.sort(key=lambda test: bool(test.waits_for))
     if waiting:
         result.messages.append(not_written_yet(waiting))
@@ -339,3 +338,11 @@ def set_aside(
         result.messages.append("Your other functions are tried with the reference's in place of what is not written.")
     if written:
         result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(written)}. The tests pass: delete that line.")
+    return waiting
+
+
+def set_pictures_aside(pictures: Sequence[ImageResult | HiddenResult], waiting: Sequence[str]) -> None:
+    """Those that do not pass say what they wait for, if anything is waited for."""
+    for picture in pictures:
+        if waiting and not picture.passed:
+            picture.waits_for, picture.message = waiting[0], f"It waits for {waiting[0]}, not written yet."

@@ -26,6 +26,7 @@ from raysteps.report.wording import (
     SaidOnce,
     after_the_last,
     check_command,
+    ended,
     inspect_command,
     moment,
     override_words,
@@ -47,7 +48,7 @@ from raysteps.results.model import (
     TestResult,
     Total,
 )
-from raysteps.results.statuses import STATUS_WORDS, in_words
+from raysteps.results.statuses import STATUS_WORDS
 from raysteps.results.store import read_results
 
 # The pictures of a submission, as far as there is room for them in one page.
@@ -257,13 +258,11 @@ def diagnosis_view(diagnosis: Diagnosis) -> dict[str, object]:
 def _test(test: TestResult, once: SaidOnce) -> dict[str, object]:
     words = ("name", "expression", "expanded", "location")
     texts = {word: clean(getattr(test, word), _TEXT) for word in words}
-    ended = in_words(test.outcome) if test.outcome in ("crashed", "timeout") else ""
-    message = once(clean(test.message, _TEXT)) if ended else clean(test.message, _TEXT)
     return {
         **texts,
-        "message": message,
+        "message": once(clean(test.message, _TEXT), test.outcome),
         "passed": test.passed,
-        "ended": ended,
+        "ended": ended(test.outcome),
         "waits_for": clean(test.waits_for),
     }
 
@@ -305,7 +304,7 @@ def _hidden(item: HiddenResult, once: SaidOnce, has_reference: bool) -> dict[str
         "passed": item.share >= 1,
         "waits_for": clean(item.waits_for),
         "percent": percent(item.share),
-        "message": once(clean(item.message)) if item.outcome in ("crashed", "timeout") else clean(item.message),
+        "message": once(clean(item.message), item.outcome),
         "spread": _spread(item.histogram),
         "case": [
             (label, clean(text, _TEXT))
@@ -365,7 +364,7 @@ def _image(
         "scene": clean(image.scene),
         "passed": image.passed,
         "waits": bool(image.waits_for),
-        "message": once(clean(image.message)) if image.outcome in ("crashed", "timeout") else clean(image.message),
+        "message": once(clean(image.message), image.outcome),
         "facts": facts,
         "noisy": image.noisy,  # then what is wrong is counted in parts, and else the page sees each pixel itself
         "wrong_share": wrong if wrong is not None and wrong > GROSS and not image.noisy else None,

@@ -12,9 +12,9 @@ from rich.text import Text
 
 from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, SaidOnce, inspect_worst, percent, total_words, typed
+from raysteps.report.wording import HOW_SURE, SaidOnce, ended, inspect_worst, percent, total_words, typed
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
-from raysteps.results.statuses import STATUS_WORDS, in_words
+from raysteps.results.statuses import STATUS_WORDS
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
@@ -68,18 +68,13 @@ def _print_diagnosis(console: Console, diagnosis: Diagnosis) -> None:
             _print_labelled(console, label, text)
 
 
-def _ended(item: TestResult | ImageResult | HiddenResult) -> str:
-    """What became of a program that did not come to its end."""
-    return in_words(item.outcome) if item.outcome in ("crashed", "timeout") else ""
-
-
 def _print_test(console: Console, test: TestResult, once: SaidOnce) -> None:
-    ended = _ended(test)
-    _print_hanging(console, "  [red]test[/red]     ", f"{test.name}{f': {ended}' if ended else ''}")
+    how = ended(test.outcome)
+    _print_hanging(console, "  [red]test[/red]     ", f"{test.name}{f': {how}' if how else ''}")
     if test.expression:
         _print_labelled(console, "expected", test.expression)
         _print_labelled(console, "got", test.expanded)
-    for line in (once(test.message) if ended else test.message).splitlines():
+    for line in once(test.message, test.outcome).splitlines():
         _print_below(console, line)
     if test.location:
         console.print(f"             [dim]{escape(test.location)}[/dim]")
@@ -101,14 +96,14 @@ def _work_lines(mine: Work, reference: Work) -> list[str]:
 
 def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce) -> None:
     color = "green" if image.passed else "red"
-    ended = _ended(image)
+    how = ended(image.outcome)
     share = "" if image.wrong_share is None else f"{image.wrong_share:.2%}"
     noisy = "no more off than chance explains" if image.passed else f"{share} of its parts wrong"
     found = f"  {noisy if image.noisy else f'{share} wrong'}"
-    share = f": {ended}" if ended else "" if not share or share in image.message else found
+    share = f": {how}" if how else "" if not share or share in image.message else found
     console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
     if not image.passed:
-        message = once(image.message) if ended else image.message
+        message = once(image.message, image.outcome)
         if message:
             _print_below(console, message)
         if image.difference or image.mine:
@@ -131,7 +126,7 @@ def _print_tier(console: Console, result: StepResult, step: Step) -> None:
 
 def _print_hidden(console: Console, item: HiddenResult, again: Again, once: SaidOnce) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
-    message = once(item.message) if _ended(item) else item.message
+    message = once(item.message, item.outcome)
     if message:
         _print_below(console, message)
     for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):

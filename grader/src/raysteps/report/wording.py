@@ -8,7 +8,8 @@ from raysteps.common.platform import own_command
 from raysteps.common.text import number, tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import here
-from raysteps.results.model import Comment, HandIn, ImageResult, PointsOverride, Results, Review, Total
+from raysteps.results.model import Comment, HandIn, ImageResult, PointsOverride, Results, Review, Termination, Total
+from raysteps.results.statuses import in_words
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
 
@@ -84,14 +85,21 @@ def percent(share: float) -> str:
     return f"{min(share * 100, 100 if share >= 1 else 99.9):.3g} %"
 
 
+def ended(outcome: Termination) -> str:
+    """What became of a program that did not come to its end."""
+    return in_words(outcome) if outcome in ("crashed", "timeout") else ""
+
+
 class SaidOnce:
-    """Of a sentence that many checks of a step have in common, such as how its program crashed: nothing after the
-    first time."""
+    """Of a sentence that many checks of a step have in common, how its program crashed or hung: nothing after the first
+    time. What else is wrong is said of each."""
 
     def __init__(self, said: Sequence[str] = ()) -> None:
         self._said = set(said)
 
-    def __call__(self, text: str) -> str:
+    def __call__(self, text: str, outcome: Termination) -> str:
+        if not ended(outcome):
+            return text
         is_new = text not in self._said
         self._said.add(text)
         return text if is_new else ""

@@ -26,7 +26,7 @@ from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
 from raysteps.grading.self_check import own_steps
 from raysteps.grading.step import GradingContext, compile_steps
-from raysteps.grading.unit_tests import run_tests, set_aside
+from raysteps.grading.unit_tests import run_tests, set_aside, set_pictures_aside
 from raysteps.images.compare import write_png
 from raysteps.images.render import shown_reference
 from raysteps.progress import own_check  # noqa: F401 - ahead of time
@@ -114,18 +114,15 @@ class QuickLook:
         self.tell(result)
         result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits, self.say)
         gallery.stopped_in(result.tests)
-        self._tell_what_waits(result, source)
+        waiting = set_aside(result, self.step, self.kit.tests[self.step.id], source)
+        self.tell(result)
         for case in self.step.images:
             result.images.append(judge(gallery, raytrace, self.step, case))
-            self._tell_what_waits(result, source)
+            set_pictures_aside(result.images[-1:], waiting)
+            self.tell(result)
         passed = [item.passed for items in (result.tests, result.images) for item in items]
         result.status = "passed" if all(passed) else "partial" if any(passed) else "failed"
         return result
-
-    def _tell_what_waits(self, result: StepResult, source: str) -> None:
-        result.messages = []
-        set_aside(result, self.step, self.kit.tests[self.step.id], source)
-        self.tell(result)
 
 
 def _does_not_build(result: StepResult, message: str) -> StepResult:

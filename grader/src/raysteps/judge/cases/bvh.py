@@ -8,7 +8,10 @@ from raysteps.judge.answers import Answer, real, words_of_number
 from raysteps.judge.bvhs import BVH
 from raysteps.judge.cases.octree_boxes import any_box, far_box, flat_box, simple_box
 from raysteps.judge.cases.tree_cases import (
+    AROUND_THE_FIRST,
     BALLS,
+    BEFORE_THE_FIRST,
+    BEYOND_THE_FIRST,
     SLOPE,
     Distance,
     MakeRays,
@@ -354,19 +357,6 @@ def _out_of_the_shell(draw: RandomSource) -> RaysInScene:
     return large_and_small(draw), (Ray(draw.point(4), draw.slanted()),)
 
 
-def _more(draw: RandomSource) -> float:
-    return draw.real(1.1, 2)
-
-
-def _less(draw: RandomSource) -> float:
-    return draw.real(0.3, 0.9)
-
-
-_BEYOND_THE_FIRST = times_first(_more)
-_BEFORE_THE_FIRST = times_first(_less)
-_EITHER = times_first(lambda draw: _more(draw) if draw.chance(0.6) else _less(draw))
-
-
 def _of_the_first(factor: float) -> Distance:
     """So many times the distance of the first hit; with 1 exactly that."""
     return times_first(lambda _: factor)
@@ -380,10 +370,10 @@ OCCLUDED_IN_BVH = Function(
     "occluded_in_bvh",
     ANY_IN_BVH,
     (
-        Group("hit or not", _occluded(one_ray, _EITHER, own=0)),
-        Group("in the tree of build_bvh", _occluded(one_ray, _EITHER, own=1)),
-        Group("a hit before the distance", _occluded(aimed_ray, _BEYOND_THE_FIRST)),
-        Group("all hits beyond the distance", _occluded(aimed_ray, _BEFORE_THE_FIRST)),
+        Group("hit or not", _occluded(one_ray, AROUND_THE_FIRST, own=0)),
+        Group("in the tree of build_bvh", _occluded(one_ray, AROUND_THE_FIRST, own=1)),
+        Group("a hit before the distance", _occluded(aimed_ray, BEYOND_THE_FIRST)),
+        Group("all hits beyond the distance", _occluded(aimed_ray, BEFORE_THE_FIRST)),
         Group("just before the distance", _occluded(_aimed_from_anywhere, _of_the_first(1.002))),
         Group("just beyond the distance", _occluded(_aimed_from_anywhere, _of_the_first(0.998))),
         Group(
@@ -392,8 +382,8 @@ OCCLUDED_IN_BVH = Function(
             exact=True,
         ),
         Group("as far as it may be", _occluded(aimed_ray, fixed(math.inf))),
-        Group("from inside", _occluded(from_inside, _BEYOND_THE_FIRST)),
-        Group("along an axis", _occluded(along_axis, _BEYOND_THE_FIRST)),
+        Group("from inside", _occluded(from_inside, BEYOND_THE_FIRST)),
+        Group("along an axis", _occluded(along_axis, BEYOND_THE_FIRST)),
         Group("large ones among small ones", _occluded(_out_of_the_shell, _of_the_first(1.2), own=1)),
         Group("everything behind the ray", _occluded(lambda d: looking_away(d, 12), between(5, 50))),
         Group("few surfaces are asked", _occluded(among_many, fixed(40.0), own=1), saves=True),

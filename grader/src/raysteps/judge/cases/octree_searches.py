@@ -4,6 +4,7 @@ from functools import partial
 
 from raysteps.common.vectors import Vector, add, minus, unit
 from raysteps.judge.cases.tree_cases import (
+    AROUND_THE_FIRST,
     BALLS,
     SLOPE,
     Distance,
@@ -26,7 +27,6 @@ from raysteps.judge.cases.tree_cases import (
     search,
     slope_and_balls,
     small_scene,
-    times_first,
 )
 from raysteps.judge.functions import Function, Group, Make
 from raysteps.judge.protocol import Ray, f32, rounded
@@ -169,9 +169,6 @@ def _exactly_there(draw: RandomSource, _surfaces: Scene, ray: Ray) -> float:
     return _to_the_lid(ray) + (0.125 if draw.chance(0.5) else 0.0)
 
 
-_AROUND_THE_FIRST = times_first(lambda draw: draw.real(1.1, 2) if draw.chance(0.6) else draw.real(0.3, 0.9))
-
-
 def _occluded(rays: MakeRays, distance: Distance, own: float = 0.5) -> Make:
     return search(WhoseTree, occluded(distance), rays, own)
 
@@ -180,8 +177,8 @@ OCCLUDED_IN_OCTREE = Function(
     "occluded_in_octree",
     ANY_HITS,
     (
-        Group("in three levels of boxes", _occluded(one_ray, _AROUND_THE_FIRST, own=0)),
-        Group("in the tree of build_octree", _occluded(one_ray, _AROUND_THE_FIRST, own=1)),
+        Group("in three levels of boxes", _occluded(one_ray, AROUND_THE_FIRST, own=0)),
+        Group("in the tree of build_octree", _occluded(one_ray, AROUND_THE_FIRST, own=1)),
         Group("from inside", _occluded(from_inside, between(0.5, 6))),
         Group("along an axis", _occluded(along_axis, between(9, 18), own=0)),
         Group("in a later box", _occluded(_in_a_later_box, between(30, 60))),

@@ -202,6 +202,19 @@ def times_first(factor: Callable[[RandomSource], float]) -> Distance:
     return lambda draw, surfaces, ray: f32(min(first_distance(surfaces, ray), _FAR) * factor(draw))
 
 
+def _beyond(draw: RandomSource) -> float:
+    return draw.real(1.1, 2)
+
+
+def _before(draw: RandomSource) -> float:
+    return draw.real(0.3, 0.9)
+
+
+BEYOND_THE_FIRST = times_first(_beyond)
+BEFORE_THE_FIRST = times_first(_before)
+AROUND_THE_FIRST = times_first(lambda draw: _beyond(draw) if draw.chance(0.6) else _before(draw))
+
+
 # In whose tree.
 
 
