@@ -107,9 +107,9 @@ constexpr Bounds k_searched_at_home{.levels = 64, .children = 8};
 // Whether the reference can search a tree that comes from a box. A search follows every number in a tree; a tree of the
 // reference's own never leads out.
 
-bool is_searchable(const Node& node) {
-    const auto searchable = [](const Node& child) { return is_searchable(child); };
-    return node.children.size() <= k_searched_at_home.children &&
+bool is_searchable(const Node& node, int level = 1) {
+    const auto searchable = [level](const Node& child) { return is_searchable(child, level + 1); };
+    return level <= k_searched_at_home.levels && node.children.size() <= k_searched_at_home.children &&
            std::all_of(node.children.begin(), node.children.end(), searchable);
 }
 
@@ -142,7 +142,7 @@ bool is_searchable(const Bvh& bvh) {
     return true;
 }
 
-void read_parts(Reader& in, const SurfaceList& group, Node& node, Bounds bounds) {
+void read_parts(Reader& in, const SurfaceList& group, Node& node, Bounds bounds = {}) {
     node.box = read<Box>(in);
     node.surfaces = read_entries(in, group);
     const std::size_t children = in.count(sizeof(Box));
@@ -165,7 +165,7 @@ void write_parts(Writer& out, const Bvh& bvh, const IndexOf& index_of) {
     write_entries(out, bvh.surfaces, index_of);
 }
 
-void read_parts(Reader& in, const SurfaceList& group, Bvh& bvh, Bounds /*bounds*/) {
+void read_parts(Reader& in, const SurfaceList& group, Bvh& bvh) {
     bvh.nodes.resize(in.count(sizeof(Box)));
     for (BvhNode& node : bvh.nodes) {
         node.box = read<Box>(in);
@@ -173,6 +173,19 @@ void read_parts(Reader& in, const SurfaceList& group, Bvh& bvh, Bounds /*bounds*
         node.count = in.get<std::uint32_t>();
     }
     bvh.surfaces = read_entries(in, group);
+}
+
+// A tree that a box wants the reference to search. Nested boxes are refused while they are read, since the reader goes
+// down them by calling itself; where the numbers of a list lead is seen when all of it is there.
+
+void read_searched(Reader& in, const SurfaceList& group, Node& root) {
+    read_parts(in, group, root, k_searched_at_home);
+}
+void read_searched(Reader& in, const SurfaceList& group, Bvh& bvh) {
+    read_parts(in, group, bvh);
+    if (!is_searchable(bvh)) {
+        throw BadMessage("a tree leads out of itself");
+    }
 }
 
 /// The surfaces of a tree, each once.
@@ -323,7 +336,7 @@ Tree ask_tree(FunctionId id, FunctionId search, const SurfaceList& surfaces) {
     const auto read_result = [&](Reader& in, const auto& open) {
         const std::shared_ptr<OwnGroup>& group = std::get<1>(open).group();
         Tree tree;
-        read_parts(in, group->surfaces, tree, Bounds{});
+        read_parts(in, group->surfaces, tree);
         require_searchable(tree, search);
         Trees<Tree>::all().remember(number, tree, group);
         return tree;
@@ -380,10 +393,11 @@ std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in) {
     auto known = std::make_shared<KnownTree<Tree>>();
     known->id = id;
     known->group = Groups::all().read(in);
-    const bool is_home = Session::current().end() == Session::End::home;
-    read_parts(in, known->group->scene.surfaces(), known->tree, is_home ? k_searched_at_home : Bounds{});
-    if (is_home && !is_searchable(known->tree)) {
-        throw BadMessage("a tree leads out of itself");
+    const SurfaceList& surfaces = known->group->scene.surfaces();
+    if (Session::current().end() == Session::End::home) {
+        read_searched(in, surfaces, known->tree);
+    } else {
+        read_parts(in, surfaces, known->tree);
     }
     trees.keep(known);
     return known;
