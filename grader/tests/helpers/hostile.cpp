@@ -2,9 +2,13 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <sched.h>
 #include <sys/mman.h>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -241,11 +245,55 @@ int environment(const Words&) {
     return 0;
 }
 
+/// Which of these files or folders can be opened.
+int open_each(const Words& words) {
+    for (const std::string& word : words) {
+        if (open(word.c_str(), O_RDONLY | O_NONBLOCK) >= 0) {
+            std::cout << word << '\n';
+        }
+    }
+    return 0;
+}
+
+/// Which of the system's services answer that a ray tracer has no use for.
+int ask_system(const Words&) {
+    const std::map<std::string, std::function<long()>> services{
+        {"keys", [] { return syscall(SYS_keyctl, 0, -3, 1); }},
+        {"memory", [] { return static_cast<long>(memfd_create("asked", 0)); }},
+        {"namespaces", [] { return static_cast<long>(unshare(CLONE_NEWNET)); }},
+        {"pair", [] { int pair[2]; return static_cast<long>(socketpair(AF_UNIX, SOCK_DGRAM, 0, pair)); }},
+        {"socket", [] { return static_cast<long>(socket(AF_INET, SOCK_STREAM, 0)); }},
+        {"trace", [] { return ptrace(PTRACE_TRACEME, 0, nullptr, nullptr); }},
+    };
+    for (const auto& [name, ask] : services) {
+        if (ask() >= 0) {
+            std::cout << name << '\n';
+        }
+    }
+    return 0;
+}
+
+int tell_limit_on_memory(const Words&) {
+    rlimit limit{};
+    getrlimit(RLIMIT_AS, &limit);
+    std::cout << limit.rlim_cur << ' ' << limit.rlim_max << '\n';
+    return 0;
+}
+
+/// Not by a call, which the first process of a namespace does not hear.
+int crash(const Words&) {
+    *static_cast<volatile int*>(nullptr) = 1;
+    return 0;
+}
+
 const std::map<std::string, std::function<int(const Words&)>> ways{
+    {"abort", [](const Words&) -> int { std::abort(); }},
+    {"ask", ask_system},
     {"bear", bear},
     {"bomb", bomb},
     {"code", [](const Words& words) { return std::stoi(words.at(0)); }},
     {"connect", connect_to},
+    {"crash", crash},
     {"send", send_to},
     {"daemon", leave_a_daemon},
     {"eat", eat},
@@ -256,12 +304,15 @@ const std::map<std::string, std::function<int(const Words&)>> ways{
     {"flood", flood},
     {"hoard", hoard},
     {"kill", [](const Words& words) { return kill(std::stoi(words.at(0)), SIGKILL) == 0 ? 0 : answer_errno(); }},
+    {"limit", tell_limit_on_memory},
     {"link", [](const Words& words) { return symlink(words.at(0).c_str(), words.at(1).c_str()); }},
+    {"open", open_each},
     {"read", read_file},
     {"signal", [](const Words& words) { return std::raise(std::stoi(words.at(0))); }},
     {"spin", spin},
     {"stubborn", stubborn},
     {"threads", start_threads},
+    {"user", [](const Words&) { std::cout << getuid() << '\n'; return 0; }},
     {"write", write_to},
     {"echo",
      [](const Words&) {

@@ -1,16 +1,20 @@
-"""The trusted program beside a box: how it ends, and what it may do where bubblewrap is around it."""
+"""The trusted program beside a box: how it ends, and how little it finds, should a box ever lead it astray."""
 
 import os
+import socket
 import sys
 from pathlib import Path
 
 import pytest
-from sandboxes import any_sandbox, sandbox_named
+from sandboxes import any_sandbox, hostile, sandbox, sandbox_named, secret
 
 from raysteps.common.errors import GraderFault
-from raysteps.sandbox.task import Beside, Limits, Output, Sandbox, Task, TaskResult
+from raysteps.course.project import here
+from raysteps.sandbox.lockdown import landlock_version, syscall_filter
+from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
+from raysteps.sandbox.users import can_lend_users
 
-__all__ = ["any_sandbox"]  # pytest finds fixtures by name
+__all__ = ["any_sandbox", "hostile", "sandbox", "secret"]  # pytest finds fixtures by name
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="boxes are for Linux")
 
@@ -19,65 +23,106 @@ _BOX = ("/usr/bin/env", "cat")
 _LIMITS = Limits(wall_seconds=30.0, cpu_seconds=30.0)
 
 
-def _ask(sandbox: Sandbox, program: str, *more: Output) -> TaskResult:
-    """Runs Python code in the place of the trusted program."""
-    return sandbox.run(Task(_BOX, _LIMITS, tools=True, beside=Beside((sys.executable, "-c", program, *more))))
+def _ask(sandbox: Sandbox, program: Path, *words: Word, stdin: bytes = b"") -> TaskResult:
+    """Runs the program that misbehaves in the place of the trusted one."""
+    return sandbox.run(Task(_BOX, _LIMITS, tools=True, beside=Beside((Input(program), *words), stdin)))
 
 
-def test_its_words_and_its_files_are_those_of_the_task(any_sandbox: Sandbox) -> None:
-    write = "import sys; open(sys.argv[1], 'w').write('seven'); print('done')"
-    ran = _ask(any_sandbox, write, Output("number"))
-    assert (ran.outcome.code, ran.outcome.stdout.strip()) == (0, "done")
-    assert ran.outputs == {"number": b"seven"}
+def _said(sandbox: Sandbox, program: Path, *words: Word) -> list[str]:
+    ran = _ask(sandbox, program, *words)
+    assert ran.outcome.code == 0, ran.outcome.stderr
+    return ran.outcome.stdout.splitlines()
 
 
-@pytest.mark.parametrize("name", ["SIGSEGV", "SIGABRT"])
-def test_a_signal_that_ends_it_is_a_crash_of_the_step(any_sandbox: Sandbox, name: str) -> None:
+def test_its_words_and_its_files_are_those_of_the_task(any_sandbox: Sandbox, hostile: Path, secret: Path) -> None:
+    echo = _ask(any_sandbox, hostile, "echo", stdin=b"done\n" * 100_000)
+    assert (echo.outcome.code, echo.outcome.stdout, echo.outputs) == (0, "done\n" * 100_000, {})
+    written = _ask(any_sandbox, hostile, "write", Output("number"), "2")
+    assert (written.outcome.code, written.outputs) == (0, {"number": b"x" * (2 << 20)})
+    assert _said(any_sandbox, hostile, "read", Input(secret, "0.nff")) == ["the answer is 42"]
+
+
+@pytest.mark.parametrize(("way", "name"), [("crash", "SIGSEGV"), ("abort", None)])
+def test_a_signal_that_ends_it_is_a_crash_of_the_step(
+    any_sandbox: Sandbox, hostile: Path, way: str, name: str | None
+) -> None:
     """It works on what the box answers; whatever comes of that costs no other step."""
-    ran = _ask(any_sandbox, f"import os, resource, signal; os.kill(os.getpid(), signal.{name}); os.abort()")
-    assert ran.outcome.signal_name is not None
+    ran = _ask(any_sandbox, hostile, way)
+    assert ran.outcome.signal_name == name if name else ran.outcome.signal_name is not None
     assert not ran.outcome.timed_out
     assert "asks the step's functions was ended by SIG" in ran.outcome.stderr
 
 
-def test_what_it_tells_of_the_wire_ends_the_step(any_sandbox: Sandbox) -> None:
-    ran = _ask(any_sandbox, "raise SystemExit(71)")
+def test_what_it_tells_of_the_wire_ends_the_step(any_sandbox: Sandbox, hostile: Path) -> None:
+    ran = _ask(any_sandbox, hostile, "code", "71")
     assert ran.outcome.code == 1
     assert "something else than the step's functions" in ran.outcome.stderr
 
 
-def test_an_ending_that_it_does_not_have_is_the_kits_fault(any_sandbox: Sandbox) -> None:
+def test_an_ending_that_it_does_not_have_is_the_kits_fault(any_sandbox: Sandbox, hostile: Path) -> None:
     with pytest.raises(GraderFault, match="ended with 99"):
-        _ask(any_sandbox, "raise SystemExit(99)")
+        _ask(any_sandbox, hostile, "code", "99")
 
 
-def test_it_uses_time_that_is_counted(any_sandbox: Sandbox) -> None:
-    ran = _ask(any_sandbox, "import time\nwhile time.process_time() < 0.5: pass")
-    assert ran.cpu_seconds >= 0.5
+def test_a_program_that_is_none_is_the_kits_fault(any_sandbox: Sandbox, secret: Path) -> None:
+    with pytest.raises(GraderFault, match="beside the box"):
+        _ask(any_sandbox, secret)
 
 
-def test_its_memory_is_bounded(any_sandbox: Sandbox) -> None:
+def test_it_uses_time_that_is_counted(any_sandbox: Sandbox, hostile: Path) -> None:
+    assert _ask(any_sandbox, hostile, "spin", "1", "0.5").cpu_seconds >= 0.5
+
+
+def test_its_time_on_the_clock_is_bounded(any_sandbox: Sandbox, hostile: Path) -> None:
+    limits = Limits(wall_seconds=1.0, cpu_seconds=1.0)
+    ran = any_sandbox.run(Task(_BOX, limits, tools=True, beside=Beside((Input(hostile), "stubborn"))))
+    assert ran.hung
+
+
+def test_its_memory_is_bounded(any_sandbox: Sandbox, hostile: Path) -> None:
     """From its first moment on, with a fence around it or not: it holds what a box sends."""
-    ran = _ask(any_sandbox, "import resource; print(*resource.getrlimit(resource.RLIMIT_AS))")
-    soft, hard = map(int, ran.outcome.stdout.split())
+    soft, hard = map(int, _said(any_sandbox, hostile, "limit")[0].split())
     assert 0 < soft <= hard <= 4096 << 20
 
 
+def test_its_environment_is_the_wire(any_sandbox: Sandbox, hostile: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TOKEN", "secret")
+    names = {line.partition("=")[0] for line in _said(any_sandbox, hostile, "environment")}
+    assert "RAYSTEPS_BOX" in names
+    assert names <= {"RAYSTEPS_BOX", "LC_ALL", "HOME", "PWD"}
+
+
+def test_it_opens_nothing_but_its_inputs(sandbox: Sandbox, hostile: Path, secret: Path, tmp_path: Path) -> None:
+    if sandbox.isolation.name in ("other user", "landlock") and not landlock_version():
+        pytest.skip("there is no Landlock in this kernel")
+    solution = here().root / "solutions"
+    places = [secret, secret.parent, here().root, solution, tmp_path, Path.home(), Path("/etc/passwd"), Path("/home")]
+    asked = [*(str(place) for place in places), "/", "/tmp", f"/proc/{os.getpid()}/environ"]
+    found = _said(sandbox, hostile, "open", *asked)
+    assert not {*found} - {"/", "/tmp"}
+    if sandbox.isolation.name != "bubblewrap":
+        assert not found
+    assert _ask(sandbox, hostile, "write", str(tmp_path / "mine"), "1").outcome.code == 1
+    assert not (tmp_path / "mine").exists()
+
+
+def test_the_system_refuses_it_what_it_refuses_a_box(sandbox: Sandbox, hostile: Path) -> None:
+    if syscall_filter() is None:
+        pytest.skip("there is no filter for this machine")
+    assert not _said(sandbox, hostile, "ask")
+
+
+def test_it_reaches_nobody_over_the_network(sandbox: Sandbox, hostile: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        assert _ask(sandbox, hostile, "connect", str(server.getsockname()[1])).outcome.code == 1
+
+
 @pytest.mark.parametrize("name", ["bubblewrap", "bubblewrap as root"])
-def test_bubblewrap_fences_it_in(tmp_path: Path, name: str) -> None:
-    """Should a box ever lead it astray: no network, no other process, no file but its own."""
-    place = tmp_path / "mine"
-    program = f"""
-import os, socket
-def can(work):
-    try:
-        work()
-        return "yes"
-    except OSError:
-        return "no"
-print(can(lambda: open({str(place)!r}, "w")), can(lambda: os.kill({os.getpid()}, 0)),
-      can(lambda: socket.create_connection(("127.0.0.1", 9), 1)), len(socket.if_nameindex()))
-"""
-    ran = _ask(sandbox_named(name), program)
-    assert ran.outcome.stdout.split() == ["no", "no", "no", "1"]
-    assert not place.exists()
+def test_it_sees_no_other_process(hostile: Path, name: str) -> None:
+    assert _ask(sandbox_named(name), hostile, "kill", str(os.getppid())).outcome.code == 1
+
+
+def test_as_root_it_is_a_user_of_its_own(sandbox: Sandbox, hostile: Path) -> None:
+    if not can_lend_users():
+        pytest.skip("only root can try this")
+    assert _said(sandbox, hostile, "user") != ["0"]

@@ -4,9 +4,7 @@ latter: a student's code answers questions, and never says how it did."""
 import os
 import resource
 import select
-import shutil
 import signal
-import subprocess
 import tempfile
 import threading
 import time
@@ -20,7 +18,7 @@ from typing import IO
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.task import Input, Limits, Output, Task, TaskResult, Word, read_regular
+from raysteps.sandbox.task import Limits, StartedProcess, Task, TaskResult
 
 WIRE_VARIABLE = "RAYSTEPS_BOX"  # names the two ends of the wire to the program beside the box
 _MEGABYTE = 1 << 20
@@ -94,30 +92,24 @@ def unwrapped(code: int) -> int:
     return 128 - code if code in _SIGNALS else code
 
 
-def _words(command: tuple[Word, ...], folder: Path) -> list[str]:
-    def path_of(word: Word) -> str:
-        if isinstance(word, Input):
-            return str(word.path)
-        return str(folder / word.name) if isinstance(word, Output) else word
-
-    return [path_of(word) for word in command]
-
-
 def _text(file: IO[bytes], most_kb: int) -> str:
     file.seek(0)
     return file.read(most_kb * 1024).decode("utf-8", "replace")
 
 
-def _limits(limits: Limits) -> list[str]:
-    """It is the kit's own, but works on what the box sends. Words that go before it, so that they hold for whatever a
-    fence starts."""
-    words = [str(shutil.which("prlimit"))]
-    bounds = (("as", resource.RLIMIT_AS, _MEMORY_MB), ("fsize", resource.RLIMIT_FSIZE, max(limits.file_mb, _FILE_MB)))
-    for name, what, most_mb in bounds:
-        _, hard = resource.getrlimit(what)
+def _quoted(said: str) -> str:
+    return shorten(printable(said).strip(), 500)
+
+
+def trusted_limits(limits: Limits) -> dict[str, int]:
+    """Resource limits of the trusted program by name: it is the kit's own, but works on what the box sends."""
+    bounds = {"RLIMIT_AS": _MEMORY_MB, "RLIMIT_FSIZE": max(limits.file_mb, _FILE_MB)}
+    within = {"RLIMIT_CORE": 0}
+    for name, most_mb in bounds.items():
+        _, hard = resource.getrlimit(getattr(resource, name))
         most = most_mb * _MEGABYTE
-        words.append(f"--{name}={most if hard == resource.RLIM_INFINITY else min(most, hard)}")
-    return words
+        within[name] = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    return within
 
 
 def _end_inside(pid: int) -> None:
@@ -128,7 +120,7 @@ def _end_inside(pid: int) -> None:
             os.kill(one, signal.SIGKILL)
 
 
-def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, float, bool]:
+def _wait(process: StartedProcess, seconds: float) -> tuple[int, float, bool]:
     """The exit code, the processor seconds, and whether it had to be ended."""
     handle = os.pidfd_open(process.pid)
     try:
@@ -144,48 +136,60 @@ def _wait(process: "subprocess.Popen[bytes]", seconds: float) -> tuple[int, floa
     return process.returncode, used.ru_utime + used.ru_stime, timed_out
 
 
-# The words that put a fence around the trusted program, which may write to the folder.
-Fence = Callable[[Path], list[str]]
+@dataclass(frozen=True)
+class Files:
+    """What the trusted program has open, and nothing else."""
+
+    stdin: int
+    stdout: int
+    stderr: int
+    wire: tuple[int, int]
+
+    @property
+    def environment(self) -> dict[str, str]:
+        """All that it has of one."""
+        return {WIRE_VARIABLE: f"{self.wire[0]},{self.wire[1]}", "LC_ALL": "C"}
 
 
-def _run_outside(task: Task, pipes: tuple[int, int], fence: Fence | None) -> _Ended:
+@dataclass(frozen=True)
+class Trusted:
+    """The trusted program, running."""
+
+    process: StartedProcess
+    exit_code: Callable[[int], int | None]  # its own, by how the process ended; none when it was never started
+    outputs: Callable[[], dict[str, bytes]]  # to be asked for when it has ended
+
+
+# Starts the trusted program, which is a task of its own, behind a fence: it reads what a box sends, and should that
+# ever lead it astray, it finds no more than its inputs.
+Start = Callable[[Task, Files, ExitStack], Trusted]
+
+
+def _run_outside(task: Task, pipes: tuple[int, int], start: Start) -> _Ended:
     """With its ends of the wire, which it alone holds from then on."""
     assert task.beside is not None
     limits = task.limits
-    start = time.monotonic()
+    own = Task(task.beside.command, limits)
+    begin = time.monotonic()
     with ExitStack() as stack:
         mine = stack.enter_context(ExitStack())
         for file in pipes:
             mine.callback(os.close, file)
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-")))
         stdin, stdout, stderr = (stack.enter_context(tempfile.TemporaryFile()) for _ in range(3))
         stdin.write(task.beside.stdin)
         stdin.seek(0)
         try:
-            process = subprocess.Popen(
-                [*_limits(limits), *(fence(folder) if fence is not None else ()), *_words(task.beside.command, folder)],
-                env={WIRE_VARIABLE: f"{pipes[0]},{pipes[1]}", "LC_ALL": "C"},
-                stdin=stdin,
-                stdout=stdout,
-                stderr=stderr,
-                pass_fds=pipes,
-                cwd=folder,
-                start_new_session=True,  # Ctrl-C is for the grader
-            )
+            trusted = start(own, Files(stdin.fileno(), stdout.fileno(), stderr.fileno(), pipes), stack)
         except OSError as error:
             raise GraderFault(f"{task.beside.command[0]}: cannot be started: {error}") from error
         mine.close()
-        stack.callback(process.kill)
-        code, cpu_seconds, timed_out = _wait(process, limits.wall_seconds)
-        code = code if fence is None else unwrapped(code)
-        outputs = {
-            word.name: data
-            for word in task.beside.command
-            if isinstance(word, Output)
-            and (data := read_regular(folder / word.name, limits.file_mb * _MEGABYTE)) is not None
-        }
+        stack.callback(trusted.process.kill)
+        status, cpu_seconds, timed_out = _wait(trusted.process, limits.wall_seconds)
+        code, outputs = trusted.exit_code(status), trusted.outputs()
         said, complained = _text(stdout, limits.output_kb), _text(stderr, _ERRORS_KB)
-        return _Ended(code, said, complained, outputs, time.monotonic() - start, cpu_seconds, timed_out)
+        if code is None:
+            raise GraderFault(f"the program beside the box cannot be started: {_quoted(complained)}")
+        return _Ended(code, said, complained, outputs, time.monotonic() - begin, cpu_seconds, timed_out)
 
 
 def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
@@ -202,7 +206,7 @@ def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
         return TaskResult(ended, outside.outputs, cpu_seconds, "wall")
     if outside.code == _CLOSED or outside.timed_out:
         return TaskResult(outcome, outside.outputs, cpu_seconds, inside.stopped)
-    said = shorten(printable(outside.stderr).strip(), 500)
+    said = _quoted(outside.stderr)
     if outside.code < 0:  # what it works on is the step's answers
         words = f"what asks the step's functions was ended by {signal.Signals(-outside.code).name} at their answers"
         ended = replace(outcome, code=outside.code, timed_out=False, stderr=f"{words}: {said}")
@@ -213,15 +217,15 @@ def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
 class Asking:
     """The program beside a task, which runs in a thread of its own from the beginning."""
 
-    def __init__(self, task: Task, pool: ThreadPoolExecutor, fence: Fence | None) -> None:
+    def __init__(self, task: Task, pool: ThreadPoolExecutor, start: Start) -> None:
         to_box, from_home = os.pipe()
         to_home, from_box = os.pipe()
         self.wire = Wire(to_box, from_box)
-        self._ended = pool.submit(self._run, task, (to_home, from_home), fence)
+        self._ended = pool.submit(self._run, task, (to_home, from_home), start)
 
-    def _run(self, task: Task, pipes: tuple[int, int], fence: Fence | None) -> _Ended:
+    def _run(self, task: Task, pipes: tuple[int, int], start: Start) -> _Ended:
         try:
-            return _run_outside(task, pipes, fence)
+            return _run_outside(task, pipes, start)
         finally:
             self.wire.finish()
 
@@ -231,13 +235,13 @@ class Asking:
 
 
 @contextmanager
-def asking(task: Task, fence: Fence | None = None) -> Iterator[Asking | None]:
+def asking(task: Task, start: Start) -> Iterator[Asking | None]:
     """None for a task that runs alone."""
     if task.beside is None:
         yield None
         return
     with ThreadPoolExecutor(max_workers=1) as pool:
-        asked = Asking(task, pool, fence)
+        asked = Asking(task, pool, start)
         try:
             yield asked
         finally:

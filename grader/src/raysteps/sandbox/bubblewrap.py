@@ -13,12 +13,12 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.beside import asking, readable, unwrapped
+from raysteps.sandbox.beside import Files, Trusted, asking, readable, trusted_limits, unwrapped
 from raysteps.sandbox.cgroups import Group, find_parents, new_group
 from raysteps.sandbox.lockdown import syscall_filter
 from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, reap, usage_of
-from raysteps.sandbox.namespaces import AsUser, NamespaceMode, compiler_command, root_words
-from raysteps.sandbox.rlimits import counts_per_namespace, limit_words, threads_of_user
+from raysteps.sandbox.namespaces import AsUser, NamespaceMode, compiler_command, root_words, tool
+from raysteps.sandbox.rlimits import counts_per_namespace, limit_words, threads_of_user, words_of
 from raysteps.sandbox.task import Input, Isolation, Limits, Task, TaskResult
 from raysteps.sandbox.task_dir import PathMap, TaskDir, fresh_task_dir, nameless_file
 from raysteps.sandbox.users import can_lend_users, lent_user
@@ -159,19 +159,21 @@ class Bubblewrap:
             f"with an empty file system for scratch. {together}"
         )
 
-    def _inside(self, task: Task, place: TaskDir, stack: ExitStack) -> tuple[PathMap, list[str]]:
+    def _inside(self, task: Task, place: TaskDir, stack: ExitStack, *, trusted: bool) -> tuple[PathMap, list[str]]:
         """The names inside, and the words that mount them."""
         mounts: list[str] = []
 
         def locate(number: int, given: Input) -> str:
             inner = f"/in/{number}/{given.inner_name}"
             # The list of mounts, which a task can read, has the host's names; a copy has none to tell.
-            shown = place.readable(given.path) if given.name is None else place.copied(given.path, given.name)
+            shown = (
+                place.readable(given.path) if trusted or given.name is None else place.copied(given.path, given.name)
+            )
             mounts.extend(["--ro-bind", str(shown), inner])
             return inner
 
         inside = PathMap(task, locate)
-        if task.tools:
+        if task.tools or trusted:
             folder = place.writable("out")
             inside.write_to_folder(folder, _OUTPUTS)
             mounts.extend(["--bind", str(folder), _OUTPUTS])
@@ -179,15 +181,17 @@ class Bubblewrap:
             inside.write_to_memory(stack)
         return inside, mounts
 
+    def _start_words(self, task: Task, user: int | None) -> list[str]:
+        """What sets the limits and becomes the user."""
+        return limit_words(task.limits, memory=self._parents is None) + self._mode.before_start(task.limits, user)
+
     def _words(
         self, task: Task, inside: PathMap, words_inside: list[str], user: int | None
-    ) -> tuple[list[str], list[str], list[str]]:
-        """What sets the limits and becomes the user, bubblewrap's options, and the command inside."""
-        limits = task.limits
+    ) -> tuple[list[str], list[str]]:
+        """bubblewrap's options, and the command inside."""
         first = task.command[0]
         compiler = compiler_command(first if isinstance(first, str) else "c++") if task.tools else None
-        mounts, before = self._mode.before_command(limits, user)
-        start = limit_words(limits, memory=self._parents is None) + self._mode.before_start(limits, user)
+        mounts, before = self._mode.before_command(task.limits, user)
         words = [*self._mode.namespaces(self._options), "--die-with-parent", "--new-session"]
         words += ["--hostname", "sandbox", "--clearenv", "--setenv", "LC_ALL", "C", "--setenv", "HOME", _HOME]
         if compiler is not None:
@@ -196,7 +200,7 @@ class Bubblewrap:
         words += [*self._mode.folders([*root, *mounts, *words_inside]), *root]
         words += self._scratch(task)
         words += [*mounts, *words_inside, "--remount-ro", "/", "--chdir", _HOME]
-        return start, words, [*before, *inside.command()]
+        return words, [*before, *inside.command()]
 
     def _scratch(self, task: Task) -> list[str]:
         words = self._mode.around_tmp()
@@ -214,34 +218,69 @@ class Bubblewrap:
             most = most if hard == resource.RLIM_INFINITY else min(most, hard)
             resource.prlimit(first, resource.RLIMIT_NPROC, (most, most))
 
-    def _fence(self, folder: Path) -> list[str]:
-        """Around the trusted program: it is the kit's own, but reads what a box sends. Should that ever lead it astray,
-        it has no network, sees no other process and writes to its folder only."""
-        words = [self._program, *self._mode.namespaces(self._options), "--die-with-parent", "--ro-bind", "/", "/"]
+    def _filters(self, stack: ExitStack) -> tuple[list[int], list[str]]:
+        """Open files with the filter of system calls, and the words for them."""
+        fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
+        return fences, [word for fd in fences for word in ("--seccomp", str(fd))]
+
+    def _start_trusted(self, task: Task, files: Files, stack: ExitStack) -> Trusted:
+        """In namespaces of its own, as another user than the box's: it sees its inputs and the system's libraries, and
+        writes to the folder of its outputs."""
+        user = stack.enter_context(lent_user()) if self._lends_users else None
+        place = stack.enter_context(fresh_task_dir(user))
+        inside, words = self._inside(task, place, stack, trusted=True)
+        control = StartupPipes(stack)
+        fences, filters = self._filters(stack)
+        words += ["--json-status-fd", str(control.status_fd), *filters]
+        for name, value in files.environment.items():
+            words += ["--setenv", name, value]
         words += sorted(self._options & {"--as-pid-1"})  # bubblewrap waits for it, and tells what it used
-        words += ["--dev", "/dev", "--proc", "/proc", "--bind", str(folder), str(folder), "--chdir", str(folder)]
-        return [*words, "--"]
+        options, command = self._words(task, inside, words, user)
+        options_fd = nameless_file("".join(f"{word}\0" for word in options).encode(), stack)
+        process = subprocess.Popen(
+            [
+                *(tool("prlimit"), *words_of(trusted_limits(task.limits))),
+                *self._mode.before_start(task.limits, user),
+                *(self._program, "--args", str(options_fd), "--"),
+                *command,
+            ],
+            env={},
+            stdin=files.stdin,
+            stdout=files.stdout,
+            stderr=files.stderr,
+            pass_fds=(control.status_fd, options_fd, *fences, *files.wire),
+            cwd="/",
+            start_new_session=True,  # Ctrl-C is for the grader
+        )
+        stack.callback(process.kill)
+        control.hand_over()
+
+        def exit_code(status: int) -> int | None:
+            code = control.exit_code()
+            return unwrapped(code) if code is not None else -signal.SIGKILL if status in _KILLED else None
+
+        return Trusted(process, exit_code, inside.outputs)
 
     def run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
-            asked = stack.enter_context(asking(task, self._fence))
+            asked = stack.enter_context(asking(task, self._start_trusted))
             wire = None if asked is None else asked.wire
             stack.enter_context(adopting_orphans())
             user = stack.enter_context(lent_user()) if self._lends_users else None
             place = stack.enter_context(fresh_task_dir(user))
             group = stack.enter_context(new_group(self._parents, task.limits)) if self._parents else None
-            inside, words = self._inside(task, place, stack)
+            inside, words = self._inside(task, place, stack, trusted=False)
             control = StartupPipes(stack)
             stdin = nameless_file(task.stdin, stack) if wire is None else wire.stdin
-            fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
-            words += [*control.words(), *(word for fd in fences for word in ("--seccomp", str(fd)))]
-            start_words, options, command = self._words(task, inside, words, user)
+            fences, filters = self._filters(stack)
+            words += [*control.words(), *filters]
+            options, command = self._words(task, inside, words, user)
             # As a file, since the first process inside shows its words to the task.
             options_fd = nameless_file("".join(f"{word}\0" for word in options).encode(), stack)
             start = time.monotonic()
             process = stack.enter_context(
                 subprocess.Popen(
-                    [*start_words, self._program, "--args", str(options_fd), "--", *command],
+                    [*self._start_words(task, user), self._program, "--args", str(options_fd), "--", *command],
                     env={},  # of the first process inside, whatever --clearenv does for the command
                     stdin=stdin,
                     stdout=subprocess.PIPE if wire is None else wire.stdout,

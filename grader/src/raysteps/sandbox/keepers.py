@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import IO, Any, Self
 
 from raysteps.sandbox.beside import readable
-from raysteps.sandbox.monitor import StartedProcess
+from raysteps.sandbox.task import StartedProcess
 
 _KEEPER = [sys.executable, "-I", "-S", str(Path(__file__).with_name("keeper.py"))]
 _NUMBER_BYTES = 8  # as keeper.py has it, which is no part of the package
@@ -165,7 +165,11 @@ if sys.platform == "linux":
 
 
 def _fork(
-    settings: dict[str, Any], command: list[str], stdin: int, stdout: int | None, files: Sequence[int]
+    settings: dict[str, Any],
+    command: list[str],
+    stdin: int,
+    outputs: tuple[int | None, int | None],
+    files: Sequence[int],
 ) -> _Forked | None:
     with ExitStack() as theirs, ExitStack() as mine:
 
@@ -174,27 +178,32 @@ def _fork(
             theirs.callback(os.close, ends[1])
             return mine.enter_context(os.fdopen(ends[0], "rb", 0)), ends[1]
 
-        kept, given = pipe() if stdout is None else (None, stdout)
-        errors, to_errors = pipe()
-        named = {0: stdin, 1: given, 2: to_errors} | {file: file for file in files}
+        (out, to_out), (errors, to_errors) = (pipe() if file is None else (None, file) for file in outputs)
+        named = {0: stdin, 1: to_out, 2: to_errors} | {file: file for file in files}
         pid = _servers.fork(settings, command, named)
         if pid is None:
             return None
         mine.pop_all()
-        return _Forked(pid, kept, errors)
+        return _Forked(pid, out, errors)
 
 
 def start_keeper(
-    settings: dict[str, Any], command: list[str], *, stdin: int, stdout: int | None, files: Sequence[int]
+    settings: dict[str, Any],
+    command: list[str],
+    *,
+    stdin: int,
+    stdout: int | None,
+    stderr: int | None = None,
+    files: Sequence[int],
 ) -> StartedProcess:
-    """Starts a keeper of the command, for which these files stay open under their numbers. What it says on stderr comes
-    by a pipe, and on stdout, too, unless a file is given for it. Whoever calls this adopts orphans on Linux."""
-    forked = _fork(settings, command, stdin, stdout, files) if sys.platform == "linux" else None
+    """Starts a keeper of the command, for which these files stay open under their numbers. What it says comes by pipes,
+    unless a file is given for it. Whoever calls this adopts orphans on Linux."""
+    forked = _fork(settings, command, stdin, (stdout, stderr), files) if sys.platform == "linux" else None
     return forked or subprocess.Popen(
         [*_KEEPER, marshal.dumps(settings).hex(), *command],
         stdin=stdin,
         stdout=subprocess.PIPE if stdout is None else stdout,
-        stderr=subprocess.PIPE,
+        stderr=subprocess.PIPE if stderr is None else stderr,
         pass_fds=files,
         cwd="/",
     )

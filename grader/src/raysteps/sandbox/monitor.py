@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any, Protocol, Self
+from typing import Protocol
 
 from raysteps.sandbox.beside import Wire
-from raysteps.sandbox.task import LimitHit, Limits, Task
+from raysteps.sandbox.task import LimitHit, Limits, StartedProcess, Task
 
 # What the processes of a task use, as /proc tells it.
 
@@ -123,20 +123,6 @@ _LOOK_EVERY = 0.05
 _DYING_SECONDS = 2.0
 _FINISHED_SECONDS = 0.5  # for a task that nobody asks any more, to end by itself
 _MEGABYTE = 1 << 20
-
-
-class StartedProcess(Protocol):
-    """A child of this process, as subprocess.Popen is one, with its output as pipes where there are any."""
-
-    pid: int
-    returncode: int | Any  # None until somebody has waited for it
-    stdout: IO[bytes] | None
-    stderr: IO[bytes] | None
-
-    def terminate(self) -> None: ...
-    def kill(self) -> None: ...
-    def __enter__(self) -> Self: ...
-    def __exit__(self, *_: Any) -> None: ...
 
 
 class MonitoredTask(Protocol):

@@ -24,6 +24,11 @@ def processes_word(most: int) -> str:
     return f"--nproc={most}"
 
 
+def words_of(limits: dict[str, int]) -> list[str]:
+    """For prlimit: limits by the names that `resource` has for them."""
+    return [f"--{name.removeprefix('RLIMIT_').lower()}={most}" for name, most in limits.items()]
+
+
 def cpu_seconds_of_a_process(limits: Limits) -> int:
     """More than the task may have: the kernel counts by looking at its clock now and then, and on a busy machine much
     too high. It is for what escapes the watching, which is exact."""

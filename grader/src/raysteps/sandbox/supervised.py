@@ -13,12 +13,11 @@ from typing import Any
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import join_and, printable, shorten
-from raysteps.sandbox.beside import asking, readable
+from raysteps.sandbox.beside import Files, Trusted, asking, readable, trusted_limits
 from raysteps.sandbox.keepers import start_keeper
 from raysteps.sandbox.lockdown import landlock_version, scopes_signals, syscall_filter
 from raysteps.sandbox.monitor import (
     MonitorReport,
-    StartedProcess,
     Usage,
     adopting_orphans,
     descendants,
@@ -27,7 +26,7 @@ from raysteps.sandbox.monitor import (
 )
 from raysteps.sandbox.namespaces import compiler_command, hidden_folders, top_folders, visible_folders
 from raysteps.sandbox.rlimits import address_space, cpu_seconds_of_a_process, threads_of_user
-from raysteps.sandbox.task import Input, Isolation, Limits, Task, TaskResult
+from raysteps.sandbox.task import Input, Isolation, Limits, StartedProcess, Task, TaskResult
 from raysteps.sandbox.task_dir import PathMap, TaskDir, fresh_task_dir, nameless_file
 from raysteps.sandbox.users import can_lend_users, lent_user
 
@@ -96,36 +95,62 @@ class SupervisedSandbox:
     def run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
             stack.enter_context(adopting_orphans() if _LINUX else nullcontext())
-            user = stack.enter_context(lent_user()) if self._lends_users else None
-            place = stack.enter_context(fresh_task_dir(user))
-            inputs: list[Path] = []
+            inside, settings = self._prepare(task, self._limits(task.limits), stack)
+            return self._keep(task, inside, settings, stack)
 
-            def locate(_: int, given: Input) -> str:
-                inputs.append(self._locate(place, given))
-                return str(inputs[-1])
+    def _prepare(self, task: Task, limits: dict[str, int], stack: ExitStack) -> tuple[PathMap, dict[str, Any]]:
+        """The names of the task's files, and what its keeper is told."""
+        user = stack.enter_context(lent_user()) if self._lends_users else None
+        place = stack.enter_context(fresh_task_dir(user))
+        inputs: list[Path] = []
 
-            inside = PathMap(task, locate)
-            scratch = place.writable("tmp")
-            folders = [scratch]
-            if task.tools or not _LINUX:
-                folders.append(place.writable("out"))
-                inside.write_to_folder(folders[-1], str(folders[-1]))
-            else:
-                inside.write_to_memory(stack)
-            command = inside.command()
-            settings: dict[str, Any] = {
-                "limits": self._limits(task.limits),
-                "user": user,
-                "folder": str(scratch),
-                "environment": _environment(task, command[0], scratch),
-                "fences": self._fences(task, inputs, folders),
-            }
-            return self._keep(task, inside, settings, command, stack)
+        def locate(_: int, given: Input) -> str:
+            inputs.append(self._locate(place, given))
+            return str(inputs[-1])
 
-    def _keep(
-        self, task: Task, inside: PathMap, settings: dict[str, Any], command: list[str], stack: ExitStack
-    ) -> TaskResult:
-        asked = stack.enter_context(asking(task))
+        inside = PathMap(task, locate)
+        scratch = place.writable("tmp")
+        folders = [scratch]
+        if task.tools or not _LINUX:
+            folders.append(place.writable("out"))
+            inside.write_to_folder(folders[-1], str(folders[-1]))
+        else:
+            inside.write_to_memory(stack)
+        return inside, {
+            "limits": limits,
+            "user": user,
+            "folder": str(scratch),
+            "environment": _environment(task, inside.command()[0], scratch),
+            "fences": self._fences(task, inputs, folders),
+        }
+
+    def _start_trusted(self, task: Task, files: Files, stack: ExitStack) -> Trusted:
+        """As it starts a task, so that it finds no more than one does."""
+        inside, settings = self._prepare(task, trusted_limits(task.limits), stack)
+        status, status_end = os.pipe()
+        stack.callback(os.close, status)
+        settings |= {"status": status_end, "environment": files.environment}
+        open_files = (status_end, *inside.fds, *files.wire)
+        try:
+            keeper = start_keeper(
+                settings,
+                inside.command(),
+                stdin=files.stdin,
+                stdout=files.stdout,
+                stderr=files.stderr,
+                files=open_files,
+            )
+        finally:
+            os.close(status_end)
+
+        def exit_code(_: int) -> int | None:
+            said = os.read(status, 64) if readable(status, 0) else b""
+            return (int(said) if said.lstrip(b"-").isdigit() else None) if said else -signal.SIGKILL
+
+        return Trusted(keeper, exit_code, inside.outputs)
+
+    def _keep(self, task: Task, inside: PathMap, settings: dict[str, Any], stack: ExitStack) -> TaskResult:
+        asked = stack.enter_context(asking(task, self._start_trusted))
         wire = None if asked is None else asked.wire
         status, status_end = os.pipe()
         stack.callback(os.close, status)
@@ -133,9 +158,10 @@ class SupervisedSandbox:
         start = time.monotonic()
         stdout = None if wire is None else wire.stdout
         files = (status_end, *inside.fds)
+        settings |= {"status": status_end}
         try:
             process = stack.enter_context(
-                start_keeper(settings | {"status": status_end}, command, stdin=stdin, stdout=stdout, files=files)
+                start_keeper(settings, inside.command(), stdin=stdin, stdout=stdout, files=files)
             )
         finally:
             os.close(status_end)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal, Protocol
+from typing import IO, Any, Literal, Protocol, Self
 
 from raysteps.common.files import open_regular
 from raysteps.common.process import Outcome
@@ -124,6 +124,20 @@ class TaskResult:
     def was_stopped(self) -> bool:
         """Whether a limit ended it, on time or on memory."""
         return self.hung or self.stopped == "memory"
+
+
+class StartedProcess(Protocol):
+    """A child of this process, as subprocess.Popen is one, with its output as pipes where there are any."""
+
+    pid: int
+    returncode: int | Any  # None until somebody has waited for it
+    stdout: IO[bytes] | None
+    stderr: IO[bytes] | None
+
+    def terminate(self) -> None: ...
+    def kill(self) -> None: ...
+    def __enter__(self) -> Self: ...
+    def __exit__(self, *_: Any) -> None: ...
 
 
 class Sandbox(Protocol):
