@@ -78,6 +78,13 @@ def test_names_cannot_steer_a_terminal(tmp_path: Path) -> None:
     assert "a b c" in labels
 
 
+def test_signs_that_nobody_sees_are_named(tmp_path: Path) -> None:
+    """Else two entries look alike, or one turns the line of the table that it stands in."""
+    for name in ("ann", "ann\u200b", "\u202enna"):
+        (tmp_path / name).mkdir()
+    assert [entry.label for entry in list_entries(tmp_path, []).entries] == ["ann", "ann⟨U+200B⟩", "⟨U+202E⟩nna"]
+
+
 def test_shards_divide_a_class() -> None:
     labels = [f"student {number}" for number in range(1000)]
     shards = [read_shard(f"{index}/7") for index in range(1, 8)]

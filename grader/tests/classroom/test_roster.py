@@ -175,3 +175,13 @@ def test_people_whose_names_differ_in_accents_only() -> None:
 
 def test_signs_of_other_scripts_are_no_accents() -> None:
     assert match(["かき たろう"], [_student(2, name="がき たろう")]).pairs == []
+
+
+def test_signs_that_nobody_sees_make_no_other_student(tmp_path: Path) -> None:
+    roster = tmp_path / "roster.csv"
+    roster.write_text("id,name\nann\u200b,Ann \u202eLee\n\u2066bob,Bob\nB\u00adob,Bob\n", encoding="utf-8")
+    with pytest.raises(UsageError, match="the id 'Bob' stands in line 3, too"):
+        read_roster(roster)
+    roster.write_text('id,name,submission\nann\u200b,"Ann\n\u202eLee",ann\u202e.zip\n', encoding="utf-8")
+    (student,) = read_roster(roster)
+    assert (student.id, student.name, student.submission) == ("ann", "Ann Lee", "ann⟨U+202E⟩.zip")

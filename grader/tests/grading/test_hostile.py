@@ -41,7 +41,7 @@ _AT_ONCE = 3
 _SLACK = 6.0  # seconds, for what the grader and the kernel do around a program on a machine that is busy with others
 _NUMBERS_WITHOUT_ENTRY = {33}  # docs/hostile.md says why
 _USUAL = ["failed", "crashed", "timeout", "partial"]
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
 
 
 def _sample() -> list[Attack]:

@@ -105,6 +105,20 @@ def test_trouble_inside_a_test_is_told_in_words() -> None:
     assert (failed.expected, failed.got, failed.notes) == ("", "", "a ray\nit went the other way")
 
 
+@pytest.mark.parametrize(
+    "sign", [b"\xed\xa0\x80", b"\xef\xbf\xbe", b"\xef\xbf\xbf", b"\xff", b"\xf4\x90\x80\x80", b"\x01"]
+)
+def test_words_that_are_no_text_hide_nothing(sign: bytes) -> None:
+    """Halves of surrogates and what is no character: no XML holds them, and an exception may."""
+    (before, after) = VERSION_3.replace("the ray goes up", "the ray HERE goes up").encode().split(b"HERE")
+    outcomes = parse_report(before + sign + after)
+    assert outcomes is not None
+    assert [outcome.passed for outcome in outcomes] == [True, False]
+    assert outcomes[1].failure is not None
+    assert outcomes[1].failure.notes.startswith("inner\nthe ray")
+    assert outcomes[1].failure.notes.endswith("goes up")
+
+
 @pytest.mark.parametrize("sign", ["(", ")", ", ", " == ", "{(", " is expected to ", "9", "9.", " (0x"])
 def test_values_of_any_shape_are_read_in_one_go(sign: str) -> None:
     """What a student's function gave is written out whole; it is cut before it is looked at."""

@@ -13,13 +13,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError, reason
-from raysteps.common.text import printable
+from raysteps.common.text import one_line, printable
 from raysteps.course.manifest import Step
 from raysteps.submission.load import ARCHIVE_ENDINGS, Submission, load_submission
 
 _MAX_FILES = 20_000
 _MAX_DEPTH = 6
-_BLANKS = str.maketrans("\n\t", "  ")
 _NO_SUBMISSIONS = {"__MACOSX", "Thumbs.db", "desktop.ini"}
 
 
@@ -69,7 +68,7 @@ def read_shard(text: str) -> Shard:
 
 def _label(path: Path, known: set[str]) -> str:
     """A name that is not UTF-8, or that steers a terminal, can be neither stored nor printed as it is."""
-    label = printable(os.fsencode(path.name).decode("utf-8", "backslashreplace")).translate(_BLANKS)
+    label = one_line(os.fsencode(path.name).decode("utf-8", "backslashreplace"))
     mark = hashlib.sha256(os.fsencode(path.name)).hexdigest()
     return label if label.strip() and label not in known else f"{label} {mark}".strip()
 

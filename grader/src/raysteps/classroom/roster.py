@@ -11,7 +11,7 @@ from pathlib import Path
 
 from raysteps.classroom.entries import folded, platform_identity, stem
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import delimiter_of, join_and, printable
+from raysteps.common.text import delimiter_of, join_and, one_line, seen
 
 # Header names without anything but letters and digits, in lower case. The first that is there counts.
 _HEADERS = {
@@ -28,6 +28,7 @@ _HEADERS = {
     "submitted_at": ("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
 }
 _MAX_BYTES = 16 << 20
+_LINE_ENDS = re.compile(r"[\n\t]")
 
 
 @dataclass(frozen=True)
@@ -101,20 +102,25 @@ def _rows(text: str, path: Path) -> Iterable[tuple[int, list[str]]]:
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
-                yield reader.line_num, [printable(cell).strip() for cell in row]
+                yield reader.line_num, row
     except csv.Error as error:
         raise UsageError(f"{path}:{reader.line_num}: is not CSV: {error}") from error
+
+
+def _cell(field: str, text: str) -> str:
+    """A submission is called what entries are; everything else is what people see, and what they would type."""
+    return one_line(text).strip() if field == "submission" else _LINE_ENDS.sub(" ", seen(text)).strip()
 
 
 def read_roster(path: Path) -> list[Student]:
     """All students, in the order of the file."""
     rows = iter(_rows(_text(path), path))
     _, header = next(rows, (1, [""]))
-    columns = _columns(header, path)
+    columns = _columns([_cell("", cell) for cell in header], path)
     students: list[Student] = []
     seen: dict[tuple[str, str], int] = {}
     for line, row in rows:
-        cells = {field: row[column] if column < len(row) else "" for field, column in columns.items()}
+        cells = {field: _cell(field, row[column]) if column < len(row) else "" for field, column in columns.items()}
         name = cells.get("name") or f"{cells.get('first', '')} {cells.get('last', '')}".strip()
         student = Student(
             line,

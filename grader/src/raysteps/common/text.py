@@ -6,13 +6,33 @@ import unicodedata
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 
-_UNSEEN = re.compile("[\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]")
+# Signs that turn the writing direction, that take no room, or that are halves of surrogates.
+_UNSEEN = re.compile(
+    "[\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\u3164\ufeff\uffa0"
+    "\ufff9-\ufffb\U000e0000-\U000e0fff\ud800-\udfff]"
+)
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+_BLANKS = str.maketrans("\n\t", "  ")
+
+
+def _bare(text: str) -> str:
+    return _CONTROL.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))
 
 
 def printable(text: str) -> str:
-    """Without control characters, so that a program's output cannot steer a terminal."""
-    return _CONTROL.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))
+    """Without control characters, so that a program's output cannot steer a terminal. Signs that nobody sees are named:
+    two texts that look alike are alike."""
+    return _UNSEEN.sub(lambda found: f"⟨U+{ord(found[0]):04X}⟩", _bare(text))
+
+
+def one_line(text: str) -> str:
+    """The same in one line, for names."""
+    return printable(text).translate(_BLANKS)
+
+
+def seen(text: str) -> str:
+    """Without control characters, and without signs that nobody sees."""
+    return _UNSEEN.sub("", _bare(text))
 
 
 def shorten(text: str, limit: int = 2000) -> str:
@@ -21,9 +41,8 @@ def shorten(text: str, limit: int = 2000) -> str:
 
 
 def clean(text: str, limit: int = 4000) -> str:
-    """Without control characters, signs that turn the writing direction, and halves of surrogates."""
-    whole = text.encode("utf-8", "replace").decode("utf-8")
-    return shorten(_UNSEEN.sub("", printable(whole)), limit)
+    """Without control characters, signs that nobody sees, and halves of surrogates."""
+    return shorten(seen(text.encode("utf-8", "replace").decode("utf-8")), limit)
 
 
 def join_and(words: Sequence[str]) -> str:

@@ -194,13 +194,22 @@ def _outcome(case: Element) -> TestOutcome:
     return TestOutcome(printable(case.get("name", "")), passed, failure, tags)
 
 
+_NO_XML = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
+
+
+def _as_xml(report: bytes) -> bytes:
+    """With something else for what no XML may hold. Catch2 writes an exception's words as they are, and some of them
+    are no text: that must not hide how the test ended."""
+    return _NO_XML.sub("\ufffd", report.decode("utf-8", "replace")).encode()
+
+
 def parse_report(report: bytes) -> list[TestOutcome] | None:
     """The test cases of a complete report; None when the report is missing, cut short or not in order: it may be
     anything where the student's code runs in the process that writes it, as for a course's own step."""
     if len(report) > _MAX_BYTES or report.count(b"<") > _MAX_TAGS:
         return None
     try:
-        return _outcomes(fromstring(report))
+        return _outcomes(fromstring(_as_xml(report)))
     except Exception:  # a fault of this reader would show in the reference's report, which is read first
         return None
 
