@@ -18,7 +18,8 @@ from raysteps.common.errors import UsageError
 from raysteps.common.process import run
 from raysteps.course.manifest import Step
 from raysteps.submission import entries
-from raysteps.submission.load import load_submission, submission_name
+from raysteps.submission.archives import archive_entries
+from raysteps.submission.load import load_submission, submission_name, submissions_inside
 
 LAYOUTS = [
     "steps/02-intersection/intersection.cpp",
@@ -27,6 +28,8 @@ LAYOUTS = [
     "team one/steps/02-intersection/intersection.cpp",
     "team one/02-intersection/intersection.cpp",
     "team one/intersection.cpp",
+    "my project/raysteps-main/steps/02-intersection/intersection.cpp",
+    "handed in/my project/raysteps-main/02-intersection/intersection.cpp",
 ]
 
 
@@ -151,7 +154,7 @@ def test_too_many_files_are_refused(
     tmp_path: Path, steps: list[Step], kind: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(entries, "MAX_ENTRIES", 8)
-    files = {f"{place}/{number}": b"x" for number in range(20) for place in (".venv", "a/b/c/d/e")}
+    files = {f"{place}/{number}": b"x" for number in range(20) for place in (".venv", "a/b/c/d/e/f")}
     files["intersection.cpp"] = b"int x;"
 
     def pack(name: str) -> Path:
@@ -251,3 +254,59 @@ def test_names_that_are_not_utf8(tmp_path: Path) -> None:
     folder = Path(os.fsdecode(os.fsencode(tmp_path) + b"/an\xffna"))
     assert submission_name(folder) == "an?na"
     assert submission_name(Path("/")) == "submission"
+
+
+def test_one_archive_in_a_folder_is_the_submission(tmp_path: Path, steps: list[Step]) -> None:
+    folder = tmp_path / "Ann Lee_123_assignsubmission_file"
+    folder.mkdir()
+    _zip(folder / "homework.zip", {"steps/02-intersection/intersection.cpp": b"int x;"})
+    (folder / "readme.txt").write_text("Here it is.")
+    submission = load_submission(folder, steps)
+    assert (submission.name, submission.sources) == (folder.name, {"02-intersection": b"int x;"})
+    (folder / "intersection.cpp").write_bytes(b"int y;")  # what lies open counts
+    assert load_submission(folder, steps).sources == {"02-intersection": b"int y;"}
+
+
+def test_of_two_archives_in_a_folder_none_is_chosen(tmp_path: Path, steps: list[Step]) -> None:
+    for name in ("a.zip", "b.zip"):
+        _zip(tmp_path / name, {"intersection.cpp": b"int x;"})
+    with pytest.raises(UsageError, match="2 archives, of which none is taken"):
+        load_submission(tmp_path, steps)
+
+
+def test_an_archive_that_is_a_link_is_not_followed(tmp_path: Path, steps: list[Step]) -> None:
+    _zip(tmp_path / "another.zip", {"intersection.cpp": b"int x;"})
+    (tmp_path / "anna").mkdir()
+    (tmp_path / "anna" / "mine.zip").symlink_to(tmp_path / "another.zip")
+    with pytest.raises(UsageError, match="holds no step; expected"):
+        load_submission(tmp_path / "anna", steps)
+    with pytest.raises(OSError, match="symbolic link"):
+        list(archive_entries(tmp_path / "anna" / "mine.zip", may_be_link=False))
+
+
+def test_a_name_that_is_nearly_right_is_answered(tmp_path: Path, steps: list[Step]) -> None:
+    (tmp_path / "complete").mkdir()
+    with pytest.raises(UsageError, match=r"is not there; .* did you mean complete\?"):
+        load_submission(tmp_path / "complet", steps)
+    with pytest.raises(UsageError, match=r"there is no folder .*/nowhere either"):
+        load_submission(tmp_path / "nowhere" / "complete", steps)
+
+
+@pytest.mark.parametrize(
+    ("names", "held"),
+    [
+        (["anna/intersection.cpp", "ben/intersection.cpp"], ["anna", "ben"]),
+        (
+            ["2026/a/anna/steps/04-shadows/shadows.cpp", "2026/a/ben/04-shadows/shadows.cpp"],
+            ["2026/a/anna", "2026/a/ben"],
+        ),
+        (["anna/shadows.cpp", "anna/old/04-shadows/shadows.cpp"], []),  # a copy
+        (["anna/shadows.cpp", "ben/octree.cpp"], []),  # folders for steps, under names of their own
+        (["shadows.cpp", "anna/shadows.cpp", "ben/shadows.cpp"], []),
+    ],
+)
+def test_a_class_is_no_submission(tmp_path: Path, steps: list[Step], names: list[str], held: list[str]) -> None:
+    for name in names:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("int x;")
+    assert submissions_inside(tmp_path, steps) == held

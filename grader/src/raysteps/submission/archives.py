@@ -4,6 +4,7 @@ import bz2
 import gzip
 import io
 import lzma
+import os
 import stat
 import tarfile
 import zipfile
@@ -94,23 +95,22 @@ def _read_tar(archive: tarfile.TarFile, info: tarfile.TarInfo) -> bytes:
         return file.read(entries.MAX_SOURCE + 1)
 
 
-def tar_entries(root: Path) -> Iterator[Entry]:
+def _tar_entries(root: Path, raw: IO[bytes]) -> Iterator[Entry]:
     """The entries of a tar, plain or compressed, in their order."""
-    with root.open("rb") as raw:
-        stream = _Stream(root, raw)
-        seen = 0
-        # Read as a stream, an archive cannot send its reader backwards and round in circles.
-        with tarfile.open(mode="r|", fileobj=stream, tarinfo=_Header) as archive:
-            for info in archive:
-                archive.members.clear()  # type: ignore[attr-defined]  # the library would remember every one
-                parts = split(info.name)
-                if parts is None or is_out_of_sight(parts[:-1]):
-                    continue
-                seen += 1
-                if seen > entries.MAX_ENTRIES:
-                    raise entries.too_many(root)
-                kind = _kind_in_tar(info)
-                yield Entry(parts, not_a_file(kind) if kind else partial(_read_tar, archive, info))
+    stream = _Stream(root, raw)
+    seen = 0
+    # Read as a stream, an archive cannot send its reader backwards and round in circles.
+    with tarfile.open(mode="r|", fileobj=stream, tarinfo=_Header) as archive:
+        for info in archive:
+            archive.members.clear()  # type: ignore[attr-defined]  # the library would remember every one
+            parts = split(info.name)
+            if parts is None or is_out_of_sight(parts[:-1]):
+                continue
+            seen += 1
+            if seen > entries.MAX_ENTRIES:
+                raise entries.too_many(root)
+            kind = _kind_in_tar(info)
+            yield Entry(parts, not_a_file(kind) if kind else partial(_read_tar, archive, info))
 
 
 # Reads a submission that is a zip. Nothing is ever unpacked to disk, and never more than a cap to memory.
@@ -147,10 +147,10 @@ def _read_zip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, root: Path) -> by
     return data
 
 
-def zip_entries(root: Path) -> Iterator[Entry]:
+def _zip_entries(root: Path, raw: io.FileIO) -> Iterator[Entry]:
     """The entries of a zip, as its directory lists them."""
-    with _Directory(io.FileIO(root)) as raw, zipfile.ZipFile(raw) as archive:
-        packed = root.stat().st_size
+    packed = os.fstat(raw.fileno()).st_size
+    with zipfile.ZipFile(_Directory(raw)) as archive:
         seen = unpacked = 0
         for info in archive.infolist():
             # The library cuts a name at a NUL byte, which may hide another ending.
@@ -187,11 +187,19 @@ _FOREIGN = {
 }
 
 
-def archive_entries(root: Path) -> Iterator[Entry]:
+def _open_no_link(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0))
+
+
+def archive_entries(root: Path, *, may_be_link: bool) -> Iterator[Entry]:
     """The entries of an archive of a kind that can be read here."""
-    with root.open("rb") as file:
+    with io.FileIO(root, opener=None if may_be_link else _open_no_link) as file:
         start = file.read(8)
-    foreign = next((name for magic, name in _FOREIGN.items() if start.startswith(magic)), "")
-    if foreign:
-        raise UsageError(f"{root}: is {foreign}; hand in a folder, a zip or a tar")
-    return zip_entries(root) if zipfile.is_zipfile(root) else tar_entries(root)
+        foreign = next((name for magic, name in _FOREIGN.items() if start.startswith(magic)), "")
+        if foreign:
+            raise UsageError(f"{root}: is {foreign}; hand in a folder, a zip or a tar")
+        if zipfile.is_zipfile(file):
+            yield from _zip_entries(root, file)
+        else:
+            file.seek(0)
+            yield from _tar_entries(root, io.BufferedReader(file))

@@ -9,7 +9,8 @@ from raysteps.common.text import printable, shorten
 
 MAX_SOURCE = 1 << 20
 MAX_ENTRIES = 20_000
-MAX_DEPTH = 4  # of an accepted place: top folder, steps, step, file
+MAX_ABOVE = 3  # top folders around a whole submission, as archives of folders of archives have them
+MAX_DEPTH = MAX_ABOVE + 3  # of an accepted place: top folders, steps, step, file
 MAX_UNPACKED = 256 << 20
 MAX_RATIO = 200  # honest sources shrink to a fifth, honest pictures to a hundredth
 RATIO_COUNTS_FROM = 32 << 20

@@ -3,16 +3,16 @@
 import os
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from raysteps.common.documents import Text
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import join_and, printable
+from raysteps.common.text import did_you_mean, join_and, printable
 from raysteps.course.manifest import Step
 from raysteps.submission.archives import DAMAGED, archive_entries
 from raysteps.submission.encoding import decode
-from raysteps.submission.entries import Entry, RejectedFile, shown
+from raysteps.submission.entries import MAX_ABOVE, Entry, RejectedFile, shown
 from raysteps.submission.folders import FolderReader, PlainFolderReader
 
 # Where the files of a submission are expected, and which names are close to an expected one.
@@ -30,7 +30,7 @@ class Place:
     step: str
     rank: int
     exact: bool  # not only but for upper and lower case
-    home: str = ""  # the top folder that it lies below
+    home: tuple[str, ...] = ()  # the top folders that it lies below
     form: int = 0  # 0 steps/step/file, 1 step/file, 2 file
 
 
@@ -61,12 +61,14 @@ class Places:
         self._lower = {tuple(map(_lower, parts)): found for parts, found in self._wanted.items()}
 
     def find(self, parts: tuple[str, ...]) -> Place | None:
-        """The place that this path is, perhaps below one single top folder."""
-        for tail, below, home in ((parts, 0, ""), (parts[1:], 3, parts[0])):
+        """The place that this path is, perhaps below top folders: one for a bare file, which could be anything else
+        further down."""
+        for above in range(min(len(parts), MAX_ABOVE + 1)):
+            tail, forms = parts[above:], _BARE + 1
             for known, worse in ((self._wanted, 0), (self._lower, 1)):
-                found = known.get(tuple(map(_lower, tail)) if worse else tail)
-                if found is not None:
-                    return Place(found[1], 2 * (found[0] + below) + worse, worse == 0, home, found[0])
+                form, step = known.get(tuple(map(_lower, tail)) if worse else tail, (forms, ""))
+                if form < forms and (form < _BARE or above <= 1):
+                    return Place(step, 2 * (form + forms * above) + worse, worse == 0, parts[:above], form)
         return None
 
     def near(self, parts: tuple[str, ...]) -> str | None:
@@ -78,10 +80,10 @@ class Places:
     def below(self, folder: tuple[str, ...]) -> list[str]:
         """The steps that have an accepted place somewhere below this folder."""
         lower = tuple(map(_lower, folder))
-        found = [
-            step for parts, (_, step) in self._lower.items() for head in (lower, lower[1:]) if _is_head(head, parts)
-        ]
-        return sorted(set(found))
+        heads = [lower[above:] for above in range(MAX_ABOVE + 1)]
+        return sorted(
+            {step for parts, (_, step) in self._lower.items() if any(_is_head(head, parts) for head in heads)}
+        )
 
 
 def unusual_places(places: Mapping[str, Place]) -> set[str]:
@@ -227,35 +229,78 @@ def submission_name(path: Path) -> str:
     return "submission" if name in ("", ".", "..") else name
 
 
-def _collect(path: Path, collector: _Collector) -> None:
+def _collect(path: Path, collector: _Collector, *, may_be_link: bool) -> None:
     if path.is_dir():
-        reader = FolderReader(path) if _OPENS_BELOW else PlainFolderReader(path)
+        reader = _reader(path)
         collector.take(reader.entries())
         collector.cannot_look_into(reader.closed)
     elif not path.is_file():
-        raise UsageError(f"{path}: is not there; expected a submission: a folder, zip or tar")
+        raise UsageError(f"{path}: is not there; expected a submission: a folder, zip or tar{_like(path)}")
     else:
-        collector.take(archive_entries(path))
+        collector.take(archive_entries(path, may_be_link=may_be_link))
+
+
+def _reader(folder: Path) -> FolderReader | PlainFolderReader:
+    return FolderReader(folder) if _OPENS_BELOW else PlainFolderReader(folder)
+
+
+def _like(path: Path) -> str:
+    """Words that name what there is instead."""
+    try:
+        names = [child.name for child in path.parent.iterdir()]
+    except OSError:
+        return f"; there is no folder {path.parent} either"
+    return did_you_mean(path.name, names)
 
 
 def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
     """The folders in a folder that each hold a file of the same step, where it holds none itself: a class."""
     if not path.is_dir():
         return []
-    places, homes = Places(steps), dict[str, set[str]]()
-    reader = FolderReader(path) if _OPENS_BELOW else PlainFolderReader(path)
-    for place in filter(None, (places.find(entry.parts) for entry in reader.entries())):
+    places, homes = Places(steps), dict[str, set[tuple[str, ...]]]()
+    for place in filter(None, (places.find(entry.parts) for entry in _reader(path).entries())):
         homes.setdefault(place.step, set()).add(place.home)
-    if any("" in found for found in homes.values()):
+    if any(() in found for found in homes.values()):
         return []
-    return sorted(set().union(*(found for found in homes.values() if len(found) > 1)))
+    highest = [_highest(found) for found in homes.values()]  # what lies further down is somebody's old copy
+    return sorted({"/".join(home) for found in highest if len(found) > 1 for home in found})
+
+
+def _highest(homes: set[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    least = min(map(len, homes))
+    return [home for home in homes if len(home) == least]
+
+
+def _packed_in(folder: Path) -> list[Path]:
+    """The archives that lie in a folder, as where a platform makes one for each student's upload."""
+    with os.scandir(folder) as children:
+        return sorted(
+            Path(child)
+            for child in children
+            if child.name.lower().endswith(ARCHIVE_ENDINGS) and child.is_file(follow_symlinks=False)
+        )
 
 
 def load_submission(path: Path, steps: list[Step]) -> Submission:
-    """Reads a submission into memory; nothing is ever unpacked to disk."""
+    """Reads a submission into memory; nothing is ever unpacked to disk. Of a folder that holds no step, but one
+    archive, this is read."""
+    submission = _load(path, steps, may_be_link=True)  # which was named by whoever grades
+    if submission.sources or submission.notes:
+        return submission
+    packed = _packed_in(path) if path.is_dir() else []
+    if len(packed) == 1:
+        inner = _load(packed[0], steps, may_be_link=False)
+        if inner.sources or inner.notes:
+            return replace(inner, name=submission.name)
+    more = f", but {len(packed)} archives, of which none is taken" if len(packed) > 1 else ""
+    raise UsageError(f"{path}: holds no step{more}; expected files like steps/{steps[0].path.as_posix()}")
+
+
+def _load(path: Path, steps: list[Step], *, may_be_link: bool) -> Submission:
+    """Nothing but a name where there is no step."""
     collector = _Collector(steps)
     try:
-        _collect(path, collector)
+        _collect(path, collector, may_be_link=may_be_link)
     except DAMAGED as error:
         if path.is_file() and not path.name.lower().endswith(ARCHIVE_ENDINGS):
             example = f"steps/{steps[0].path.as_posix()}"
@@ -264,7 +309,4 @@ def load_submission(path: Path, steps: list[Step]) -> Submission:
             ) from error
         why = "an archive may be damaged or cut off"
         raise UsageError(f"{path}: cannot be read as a folder, zip or tar; {why} ({reason(error)})") from error
-    submission = collector.submission(submission_name(path))
-    if not submission.sources and not submission.notes:
-        raise UsageError(f"{path}: holds no step; expected files like steps/{steps[0].path.as_posix()}")
-    return submission
+    return collector.submission(submission_name(path))
