@@ -115,7 +115,7 @@ TEST_CASE("a thin cone far away is hit where it is", "[cone]") {
             const glm::dvec3 axis = glm::normalize(glm::dvec3(to) - glm::dvec3(from));
             const glm::dvec3 spoke = glm::dvec3(hit->position) - glm::dvec3(from);
             const double apart = glm::length(spoke - glm::dot(spoke, axis) * axis);
-            CHECK(apart == Approx(0.0009).margin(0.00012));
+            CHECK(apart == Within{0.0009, 0.00012});
             CHECK_THAT(hit->normal, IsUnitLength());
             CHECK(glm::dot(hit->normal, ray.direction) <= 1e-6F);
         }

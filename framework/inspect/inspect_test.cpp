@@ -74,7 +74,7 @@ TEST_CASE("A surface that the structure loses is found and named", "[inspect]") 
     const PixelRecord record = inspect_pixel(scene, scene.camera, structure, Acceleration::octree, options_of(5), 4, 4);
     REQUIRE(record.eye.lost.has_value());
     CHECK(record.eye.lost->surface == 0);
-    CHECK(record.eye.lost->distance == Approx(4.0F));
+    CHECK(record.eye.lost->distance == about(4.0));
     CHECK(record.eye.lost->reason == LossReason::not_tested);
     CHECK(inspect_text(record).find("LOST") != std::string::npos);
     CHECK(record.counts.surface_tests == record.stats.surface_tests);

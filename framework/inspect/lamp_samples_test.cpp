@@ -141,15 +141,15 @@ TEST_CASE("the density of a sample is by solid angle, and its shadow ray ends at
 
     const LampRecord& ball = record.eye.lamps[0];
     CHECK(ball.lamp == 0);
-    CHECK(ball.sample.pdf == Approx(1.0F / (2.0F * glm::pi<float>() * (1.0F - std::sqrt(0.75F)))).epsilon(1e-3));
-    CHECK(glm::distance(ball.sample.position, far_ball.center) == Approx(4.0F).epsilon(1e-3));
+    CHECK(ball.sample.pdf == about(1.0F / (2.0F * glm::pi<float>() * (1.0F - std::sqrt(0.75F))), 1e-3));
+    CHECK(glm::distance(ball.sample.position, far_ball.center) == about(4.0, 1e-3));
     CHECK_THAT(ball.sample.normal, IsNear((ball.sample.position - far_ball.center) / 4.0F, 1e-3F));
 
     const LampRecord& disk = record.eye.lamps[1];
     const glm::vec3 way = disk.sample.position - hit;
     CHECK(disk.lamp == 1);
     CHECK(disk.sample.pdf ==
-          Approx(glm::dot(way, way) / (glm::pi<float>() * 0.25F * glm::normalize(way).y)).epsilon(1e-3));
+          about(glm::dot(way, way) / (glm::pi<float>() * 0.25F * glm::normalize(way).y), 1e-3));
     REQUIRE(disk.rays.size() == 1);
     const RayNode& shadow = disk.rays.front();
     CHECK(shadow.role == RayRole::shadow);

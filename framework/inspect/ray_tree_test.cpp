@@ -14,13 +14,13 @@ TEST_CASE("Rays stand in a tree, each with its colour", "[inspect]") {
     REQUIRE(eye.hit.has_value());
     CHECK(eye.hit->surface == 0U);
     CHECK(eye.hit->kind == "sphere");
-    CHECK(eye.hit->hit.distance == Approx(4.0F));
+    CHECK(eye.hit->hit.distance == about(4.0));
     CHECK(eye.counts.surface_tests == 41);
     CHECK(eye.counts.unique_surfaces == 41);
 
     REQUIRE(eye.lights.size() == 1);
     CHECK(eye.lights[0].lit);
-    CHECK(eye.lights[0].l_n == Approx(1.0F));
+    CHECK(eye.lights[0].l_n == about(1.0));
     REQUIRE(eye.lights[0].rays.size() == 1);
     CHECK(eye.lights[0].rays.front().role == RayRole::shadow);
     CHECK(eye.lights[0].diffuse == Color(0.4F * 0.5F, 0.4F * 0.5F, 0.4F * 0.9F));

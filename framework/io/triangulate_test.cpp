@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/triangulate.hpp"
-#include "testing/catch.hpp"
+#include "testing/matchers.hpp"
 #include "testing/random.hpp"
 
 using namespace raysteps;
@@ -41,7 +41,7 @@ std::size_t check_cover(const Polygon& polygon) {
         sum += glm::length(normal);
     }
     CHECK(same_side);
-    CHECK(sum == Approx(glm::length(whole)).epsilon(1e-5));
+    CHECK(sum == testing::about(glm::length(whole), 1e-5));
     return triangles.size();
 }
 

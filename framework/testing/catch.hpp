@@ -1,10 +1,9 @@
 #pragma once
 // Catch2 in both of its generations: 3.x (many headers) and 2.13 (one header).
-// Approx is visible without a namespace in both, and raysteps::testing::MatcherBase is the base of matchers.
+// raysteps::testing::MatcherBase is the base of matchers in both.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 #define RAYSTEPS_CATCH_VERSION 3
-using Catch::Approx;
 namespace raysteps::testing {
 template <typename T>
 using MatcherBase = Catch::Matchers::MatcherBase<T>;

@@ -13,8 +13,8 @@ namespace raysteps::testing {
 inline constexpr float k_tolerance = 1e-4F;
 
 /// For single numbers: CHECK(hit.distance == about(4)). Relative, and absolute near 0.
-inline Approx about(double expected, double tolerance = 1e-4) {
-    return Approx(expected).epsilon(tolerance).margin(tolerance);
+inline Within about(double expected, double tolerance = 1e-4) {
+    return {expected, tolerance * std::max(1.0, std::abs(expected))};
 }
 
 /// Within `tolerance` of the expected vector, relative to its length where that is above 1.

@@ -2,6 +2,7 @@
 // How failures print the kit's types. Include it before the first assertion that compares them.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -40,6 +41,20 @@ inline std::string text(const Interval& part) {
     return "from distance " + text(part.enter) + " to " + text(part.leave);
 }
 
+/// A number, and how far another may be from it. NaN is near nothing.
+struct Within {
+    double expected;
+    double margin;
+
+    friend bool operator==(double actual, const Within& within) {
+        return actual == within.expected || std::abs(actual - within.expected) <= within.margin;
+    }
+};
+
+inline std::string text(const Within& within) {
+    return text(static_cast<float>(within.expected)) + " within " + text(static_cast<float>(within.margin), 2);
+}
+
 inline std::string text(const HitRecord& hit) {
     return "hit at distance " + text(hit.distance) + ", position " + text(hit.position) + ", normal " +
            text(hit.normal) + (hit.front_face ? ", from outside" : ", from inside");
@@ -67,6 +82,11 @@ struct StringMaker<raysteps::Box> {
 template <>
 struct StringMaker<raysteps::Interval> {
     static std::string convert(const raysteps::Interval& part) { return raysteps::testing::text(part); }
+};
+
+template <>
+struct StringMaker<raysteps::testing::Within> {
+    static std::string convert(const raysteps::testing::Within& within) { return raysteps::testing::text(within); }
 };
 
 template <>

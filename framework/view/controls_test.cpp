@@ -61,7 +61,7 @@ TEST_CASE("Dragging turns the camera: the scene follows the hand", "[view]") {
     const Camera& camera = controls.settings().camera;
     CHECK(camera.from.x < -1.0F);
     CHECK(camera.at == glm::vec3(0.0F));
-    CHECK(distance(camera) == Approx(5.0F));
+    CHECK(distance(camera) == testing::about(5.0));
     CHECK(controls.camera_moved());
     controls.key('r');
     CHECK_FALSE(controls.camera_moved());
@@ -74,7 +74,7 @@ TEST_CASE("Shift or another button moves the camera sideways", "[view]") {
         drag(controls, {100.0F, 80.0F}, {140.0F, 80.0F}, shift ? Button::left : Button::other, shift);
         const Camera& camera = controls.settings().camera;
         CHECK(camera.at.x < 0.0F);
-        CHECK(camera.from.x == Approx(camera.at.x));
+        CHECK(camera.from.x == testing::about(camera.at.x));
         CHECK(controls.take_events().new_request);
     }
 }

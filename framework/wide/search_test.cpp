@@ -273,7 +273,7 @@ TEST_CASE("A scene without surfaces, and one with a single surface", "[wide]") {
         const auto tree = make_accelerator(kind, scene.surfaces());
         const auto hit = tree->closest_hit({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}});
         REQUIRE(hit);
-        CHECK(hit->distance == Approx(4.0F));
+        CHECK(hit->distance == about(4.0));
         CHECK(tree->occluded({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 4.5F));
         CHECK_FALSE(tree->occluded({glm::vec3(0.0F), {0.0F, 0.0F, 1.0F}}, 3.5F));
     }

@@ -62,7 +62,7 @@ public:
         for (std::size_t part = 0; part < found_.size(); ++part) {
             INFO(name_ << ", number " << part + 1 << " of 8: an eighth of the points should be there");
             const double share_of_the_points = static_cast<double>(found_.at(part)) / k_many;
-            CHECK(share_of_the_points == Approx(k_share).margin(7.0 * deviation));
+            CHECK(share_of_the_points == Within{k_share, 7.0 * deviation});
         }
     }
 

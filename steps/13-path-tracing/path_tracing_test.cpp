@@ -377,7 +377,7 @@ TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracin
     INFO(
         "a path has 4 rays and an eighth: from the fourth bounce on roulette is played, and of 16 paths one survives "
         "the first time. More: it begins too late, or asks the weight before the bounce. Fewer: it begins too early");
-    CHECK(half.rays == Approx(4.125).margin(0.06));
+    CHECK(half.rays == Within{4.125, 0.06});
     INFO("walls that send four fifths on: 5");
     const Means bright = means_of({Stop{.light = k_white, .weight = Color(0.8F)}});
     CHECK(bright.light == about(5.0, 0.045));
@@ -386,5 +386,5 @@ TEST_CASE("path_light: roulette ends paths and takes no light", "[13-path-tracin
     std::vector<Stop> stops(11, Stop{.weight = k_white});
     stops.push_back(Stop{.light = k_white, .scatters = false});
     constexpr int k_paths = 2000;  // seven standard deviations are 0.11
-    CHECK(means_of(stops, k_paths).light == Approx(1.0).margin(0.12));
+    CHECK(means_of(stops, k_paths).light == Within{1.0, 0.12});
 }

@@ -143,6 +143,25 @@ def test_it_tells_what_to_do_next_and_how_the_points_come_about(
     assert page.locator("#step-04").evaluate("step => step.open")
 
 
+def test_without_a_diagnosis_it_shows_what_is_wrong_first(steps: list[Step], tmp_path: Path) -> None:
+    document = _mixed(steps, tmp_path)
+    result = next(step for step in document.steps if step.status == "partial")
+
+    def todo() -> str:
+        return student_page(document, tmp_path, steps).partition('id="next"')[2].partition("</section>")[0]
+
+    failed = next(test for test in result.tests if not test.passed)
+    failed.name, failed.expanded = "the first test that fails", "a = 3"
+    assert failed.name not in todo()
+    result.diagnoses = []
+    assert failed.name in todo()
+    assert "a = 3" in todo()
+    result.tests = [test for test in result.tests if test.passed]
+    lost = next(item for item in result.hidden if item.given)
+    lost.given = "the smallest input"
+    assert "the smallest input" in todo()
+
+
 def test_its_pictures_are_compared_and_a_pixel_has_its_command(
     open_page: OpenPage, steps: list[Step], tmp_path: Path
 ) -> None:

@@ -61,14 +61,13 @@ _LITERAL = re.compile(r"(?<![\w.])(\d[\d.]{0,40}?(?:e[-+]?\d{1,4})?)(?:\.0)?F(?!
 _QUALIFIER = re.compile(r"\b(?:glm|std)::(?:vector<\w{1,40}>(?=\{))?")
 _CAST = re.compile(r"static_cast<[\w:]{1,40}>\(([\w.]{1,40})\)")
 _HEX = re.compile(r" \(0x[0-9a-f]{1,16}\)")
-_ABOUT = re.compile(r"Approx\( (?P<value>[-+.\w]{1,40}) \)")
 _MATCHED = " is expected to "  # of the matchers in framework/testing
 _VERBS = {"be ": "= ", "have ": "has ", "point ": "points "}
 
 
 def _value(text: str) -> str:
     """Without what only Catch2 and C++ need."""
-    return _HEX.sub("", _FLOAT.sub(r"\1", _ABOUT.sub(r"about \g<value>", text.strip())))
+    return _HEX.sub("", _FLOAT.sub(r"\1", text.strip()))
 
 
 def _name(text: str) -> str:

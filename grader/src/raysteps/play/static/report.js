@@ -7,7 +7,6 @@ const LITERAL = /(?<![\w.])(\d[\d.]{0,40}?(?:e[-+]?\d{1,4})?)(?:\.0)?F(?!\w)/g;
 const QUALIFIER = /\b(?:glm|std)::(?:vector<\w{1,40}>(?=\{))?/g;
 const CAST = /static_cast<[\w:]{1,40}>\(([\w.]{1,40})\)/g;
 const HEX = / \(0x[0-9a-f]{1,16}\)/g;
-const ABOUT = /Approx\( ([-+.\w]{1,40}) \)/g;
 const MATCHED = " is expected to ";
 const VERBS = { "be ": "= ", "have ": "has ", "point ": "points " };
 const TROUBLE = { Exception: "threw: ", FatalErrorCondition: "crashed: " };
@@ -40,7 +39,7 @@ function textOf(element) {
 }
 
 function value(text) {
-  return text.trim().replace(ABOUT, "about $1").replace(FLOAT, "$1").replace(HEX, "");
+  return text.trim().replace(FLOAT, "$1").replace(HEX, "");
 }
 
 function nameOf(text) {
