@@ -19,8 +19,7 @@ from raysteps.course.project import Project
 from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.plan import read_plan
-from raysteps.results.model import StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings, StepResult
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission

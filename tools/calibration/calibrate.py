@@ -22,8 +22,7 @@ from raysteps.common.files import write_if_changed
 from raysteps.course.manifest import Step, choose
 from raysteps.course.project import Project
 from raysteps.grading.pipeline import grade_submission
-from raysteps.results.model import StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings, StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit

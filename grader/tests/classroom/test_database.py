@@ -28,8 +28,7 @@ from raysteps.classroom.jobs import Answer, Job, from_line, to_line
 from raysteps.classroom.session import submission_key
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import FORMULA_SIGNS
-from raysteps.results.model import Results, StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import Results, Settings, StepResult
 from raysteps.submission.load import Submission
 
 _SETTINGS = Settings()

@@ -17,7 +17,7 @@ from class_fakes import start_class, write_entry
 from fake_grader import FAKE
 
 from raysteps.classroom.jobs import Job, to_line
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings
 from raysteps.submission.load import Submission
 
 _TIMEOUT = 60

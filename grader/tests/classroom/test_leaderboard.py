@@ -24,8 +24,7 @@ from raysteps.common.documents import Malformed, as_text, convert
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.results.model import Results, StepResult, Work
-from raysteps.results.settings import Settings
+from raysteps.results.model import Results, Settings, StepResult, Work
 
 Document = dict[str, Any]
 

@@ -10,7 +10,7 @@ from raysteps.classroom import cluster as cluster_task
 from raysteps.classroom.jobs import Answer, Job, to_line
 from raysteps.classroom.worker import JobRunner
 from raysteps.course.settings import PLACE
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings
 from raysteps.submission.load import Submission
 
 

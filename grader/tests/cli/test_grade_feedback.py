@@ -13,8 +13,7 @@ from raysteps.cli import grade as command
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.settings import PLACE
-from raysteps.results.model import Results
-from raysteps.results.settings import Feedback, Settings
+from raysteps.results.model import Feedback, Results, Settings
 
 
 def _grades_to(monkeypatch: pytest.MonkeyPatch, found: Results, steps: list[Step]) -> dict[str, Any]:

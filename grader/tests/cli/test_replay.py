@@ -22,7 +22,7 @@ from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
 from raysteps.judge.protocol import ProtocolError
-from raysteps.results.settings import Feedback, Settings
+from raysteps.results.model import Feedback, Settings
 from raysteps.results.store import place_of
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission

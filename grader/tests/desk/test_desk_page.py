@@ -17,8 +17,7 @@ from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
 from raysteps.classroom.jobs import Answer
 from raysteps.common.local_server import shown_in_browser
 from raysteps.desk.desk import Desk, DeskServer
-from raysteps.results.model import Diagnosis, Results, StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import Diagnosis, Results, Settings, StepResult
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -12,8 +12,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants, replaced_once
 from raysteps.exports.items import step_text
 from raysteps.grading.pipeline import grade_submission
-from raysteps.results.model import Results
-from raysteps.results.settings import Settings
+from raysteps.results.model import Results, Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -15,8 +15,7 @@ from conftest import MakeSubmission
 
 from raysteps.course.mutants import replaced_once
 from raysteps.grading.pipeline import grade_submission
-from raysteps.results.model import StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings, StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

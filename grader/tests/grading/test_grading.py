@@ -8,8 +8,7 @@ from conftest import MakeSubmission, Sources
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.pipeline import grade_submission
-from raysteps.results.model import Results
-from raysteps.results.settings import Settings
+from raysteps.results.model import Results, Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -26,7 +26,7 @@ from pathlib import Path
 
 from raysteps.course.project import Project
 from raysteps.grading.pipeline import grade_submission
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission

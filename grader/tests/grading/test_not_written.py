@@ -16,8 +16,7 @@ from raysteps.grading.pipeline import HiddenStepGrader, grade_submission
 from raysteps.grading.scoring import test_weights as weights_of
 from raysteps.judge.counterexamples import Examples, read_case
 from raysteps.judge.worker import JudgedCase
-from raysteps.results.model import StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings, StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import AccountingSandbox, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission

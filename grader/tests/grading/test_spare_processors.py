@@ -11,8 +11,7 @@ from raysteps.common.process import Outcome
 from raysteps.grading import pipeline
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.hidden_tests import make_all_cases
-from raysteps.results.model import StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings, StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import AccountingSandbox, Input, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission

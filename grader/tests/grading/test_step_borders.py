@@ -10,8 +10,7 @@ from raysteps.course.manifest import Step
 from raysteps.grading import pipeline
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.hidden_tests import run_hidden_tests
-from raysteps.results.model import HiddenResult, StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import HiddenResult, Settings, StepResult
 from raysteps.results.store import read_results
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission

@@ -12,7 +12,12 @@ COMPARISONS = [
     ("!(a) == !(b)", "true == false", "!(a) = false", "!(a) = true"),
     ("light.r == about(1.0)", "nanf == 1 within 0.0001", "light.r = 1 within 0.0001", "light.r = nan"),
     ("dark == 0", "384 (0x180) == 0", "dark = 0", "dark = 384"),
-    ("part-&gt;enter == about(4.0)", "3.5f == 4 within 0.0004", "part-&gt;enter = 4 within 0.0004", "part-&gt;enter = 3.5"),
+    (
+        "part-&gt;enter == about(4.0)",
+        "3.5f == 4 within 0.0004",
+        "part-&gt;enter = 4 within 0.0004",
+        "part-&gt;enter = 3.5",
+    ),
     (
         "f(a &lt; b, {c, d}) &lt;= k_off",
         "0.25f &lt;= 0.001f",

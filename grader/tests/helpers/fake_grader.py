@@ -17,8 +17,7 @@ from raysteps.classroom.jobs import ProgressCallback
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
-from raysteps.results.model import HiddenResult, ImageResult, Results, StepResult, Timing
-from raysteps.results.settings import Settings
+from raysteps.results.model import HiddenResult, ImageResult, Results, Settings, StepResult, Timing
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission

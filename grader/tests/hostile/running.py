@@ -14,8 +14,7 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.grading.pipeline import grade_submission
 from raysteps.images.render import reference_picture
-from raysteps.results.model import Results
-from raysteps.results.settings import Settings
+from raysteps.results.model import Results, Settings
 from raysteps.sandbox.task import Isolation, Sandbox, Task, TaskResult
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit

@@ -3,8 +3,7 @@
 import pytest
 
 from raysteps.grading.withhold import withhold
-from raysteps.results.model import CaseGroup, HiddenResult, Results, StepResult
-from raysteps.results.settings import Feedback
+from raysteps.results.model import CaseGroup, Feedback, HiddenResult, Results, StepResult
 from raysteps.results.store import validate
 
 pytestmark = pytest.mark.portable

@@ -20,8 +20,7 @@ from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
 from raysteps.report.terminal import print_details
 from raysteps.report.wording import total_words
-from raysteps.results.model import HiddenResult, Results, TestResult
-from raysteps.results.settings import Feedback
+from raysteps.results.model import Feedback, HiddenResult, Results, TestResult
 from raysteps.results.store import write_results
 
 

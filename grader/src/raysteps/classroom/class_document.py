@@ -33,8 +33,7 @@ from raysteps.results.class_model import (
     StepPoints,
     Student,
 )
-from raysteps.results.model import HandIn, StepResult
-from raysteps.results.settings import Settings
+from raysteps.results.model import HandIn, Settings, StepResult
 from raysteps.results.store import stored_results
 
 # How one submission stands.

@@ -25,8 +25,7 @@ from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
 from raysteps.results.class_model import ClassResults, GradedSubmission, Student
-from raysteps.results.model import Results
-from raysteps.results.settings import Feedback
+from raysteps.results.model import Feedback, Results
 from raysteps.results.store import FOLDER as CASES
 from raysteps.results.store import stored_results
 

@@ -15,7 +15,7 @@ from typing import Any, Literal
 from raysteps.classroom.jobs import Answer
 from raysteps.common.documents import plain
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.results.settings import Feedback, Settings
+from raysteps.results.model import Feedback, Settings
 
 # The tables of class.sqlite, and how the file is opened.
 

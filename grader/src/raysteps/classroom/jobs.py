@@ -12,8 +12,7 @@ from msgspec import Meta
 
 from raysteps.common.documents import Amount, Malformed, Text, convert, plain
 from raysteps.common.errors import GraderFault
-from raysteps.results.model import Results
-from raysteps.results.settings import Settings
+from raysteps.results.model import Results, Settings
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
 

@@ -11,7 +11,7 @@ from raysteps.course.project import here
 from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
 from raysteps.grading.pipeline import grade_submission
 from raysteps.judge.plan import read_plan
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit

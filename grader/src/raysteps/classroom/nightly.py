@@ -23,7 +23,7 @@ from raysteps.classroom.session import holds, submission_key
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
 from raysteps.report.student import REPORT
-from raysteps.results.settings import Feedback
+from raysteps.results.model import Feedback
 
 # How many feedbacks a day has, and when it begins.
 

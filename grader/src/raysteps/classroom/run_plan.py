@@ -21,7 +21,7 @@ from raysteps.common.text import count
 from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import Course
-from raysteps.results.settings import Feedback, Settings
+from raysteps.results.model import Feedback, Settings
 
 # What was asked for.
 

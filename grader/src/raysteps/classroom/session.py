@@ -22,7 +22,7 @@ from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter, first_line
 from raysteps.common.errors import GraderFault
 from raysteps.report.wording import total_words
-from raysteps.results.settings import Settings
+from raysteps.results.model import Settings
 from raysteps.results.store import stored_results
 from raysteps.submission.load import Submission
 

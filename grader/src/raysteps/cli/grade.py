@@ -24,8 +24,7 @@ from raysteps.grading.step import clear
 from raysteps.grading.withhold import withhold
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
-from raysteps.results.model import Results
-from raysteps.results.settings import Settings
+from raysteps.results.model import Results, Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit

@@ -27,7 +27,7 @@ from raysteps.course.manifest import STEPS_HELP
 from raysteps.course.project import Project
 from raysteps.course.settings import Course, read_course
 from raysteps.results.class_model import ClassResults
-from raysteps.results.settings import Feedback
+from raysteps.results.model import Feedback
 from raysteps.toolchain.limits import LIMIT_HELP, parse_limits
 
 # The words after `grade-class`.

@@ -36,8 +36,7 @@ from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.hidden_tests import make_all_cases, run_hidden_tests, take_back, unspared, why_unspared
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, reference_unkept
-from raysteps.results.model import HiddenResult, Integration, Results, StepResult, Timing
-from raysteps.results.settings import Settings
+from raysteps.results.model import HiddenResult, Integration, Results, Settings, StepResult, Timing
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import AccountingSandbox, Sandbox
 from raysteps.submission.load import Submission

@@ -2,8 +2,7 @@
 
 from dataclasses import replace
 
-from raysteps.results.model import HiddenResult, Results, StepResult
-from raysteps.results.settings import Feedback
+from raysteps.results.model import Feedback, HiddenResult, Results, StepResult
 
 _HIDDEN_ITEM = "hidden item"  # of the line that counts them
 

@@ -54,7 +54,7 @@ def _look_through(
     from raysteps.grading.pipeline import (
         grade_submission,  # a students' kit has neither the judge nor what belongs to it
     )
-    from raysteps.results.settings import Settings
+    from raysteps.results.model import Settings
 
     settings = Settings(only=tuple(step.id for step in chosen))
     crash = partial(name_crash, kit, submission, LimitsOnly(), say)

@@ -6,8 +6,7 @@ from typing import Annotated, ClassVar, Literal
 from msgspec import Meta
 
 from raysteps.common.documents import OPTIONAL, Amount, Count, Text
-from raysteps.results.model import EarlierSubmission, Lateness
-from raysteps.results.settings import Settings
+from raysteps.results.model import EarlierSubmission, Lateness, Settings
 
 
 @dataclass

@@ -12,6 +12,21 @@ from raysteps.common.documents import OPTIONAL, Amount, Count, Share, Text
 from raysteps.results.statuses import Status
 from raysteps.sandbox.task import Isolation
 
+# How an instructor wants a submission to be graded.
+
+Feedback = Literal["full", "diagnosis", "score"]  # how much a student is told about the hidden part
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Together with the kit and the submission this fixes a grade."""
+
+    feedback: Feedback = "full"
+    limits: dict[str, Amount] = field(default_factory=dict)  # changes by name, see toolchain.limits
+    only: tuple[str, ...] = ()  # step ids; all steps when there are none
+    seed: int = 1
+
+
 # What people add to a result: comments, points that they changed, and answers to students who asked.
 
 Part = Literal["", "tests", "pictures", "hidden", "together"]  # of a step's points; empty for all of them
