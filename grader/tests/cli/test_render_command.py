@@ -40,6 +40,24 @@ def test_a_crash_of_the_renderer_is_a_failure(tmp_path: Path, capsys: pytest.Cap
     assert "your program crashed (SIGSEGV: memory" in capsys.readouterr().err
 
 
+def test_a_picture_that_never_ends_is_told_while_it_is_drawn(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = tmp_path / "told"
+    program = tmp_path / "raytrace-mine"
+    program.write_text(f"#!/bin/sh\nwhile ! test -e {told}; do sleep 0.01; done\n")
+    program.chmod(0o755)
+
+    def say(text: str) -> None:
+        print(text)
+        told.touch()
+
+    monkeypatch.setattr(render, "_say", say)
+    monkeypatch.setattr(render, "_LONG", 0.01)
+    assert render._run_mine(program, []) == 0
+    assert "one of your functions may never end" in capfd.readouterr().out
+
+
 def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "abc")
     assert main(["grade", "/no/such/submission"]) == 2

@@ -5,7 +5,8 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Sequence
+import threading
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from raysteps.cli.convert import as_scene
@@ -95,19 +96,19 @@ def take_impl(args: list[str]) -> tuple[str, list[str]]:
     return impl, rest
 
 
-def _say(text: str, *, first: bool = True) -> None:
-    print(f"raysteps: {text}{'; the first time may take a minute' if first else ''}", file=sys.stderr, flush=True)
+def _say(text: str) -> None:
+    print(f"raysteps: {text}", file=sys.stderr, flush=True)
 
 
 def _build(tree: BuildTree, target: str) -> Outcome:
     """Says that it takes a while, once: after an error of the student's, too, the next build is not the first."""
     begun = tree.folder / "begun" / target
     if not (begun.exists() or tree.program(target).exists()):
-        _say("building")
+        _say("building; the first time may take a minute")
     with tree.locked():
         begun.parent.mkdir(parents=True, exist_ok=True)
         begun.touch()
-        return tree.build([target], lambda far: _say(f"building: {far}", first=False))
+        return tree.build([target], lambda far: _say(f"building: {far}"))
 
 
 def _refuse_no_source(project: Project) -> None:
@@ -225,9 +226,27 @@ def _is_where_we_print(path: Path) -> bool:
         return False
 
 
-def _draw(program: Path, args: list[str], picture: str | None) -> int:
+_LONG = 20.0  # seconds; the kit's own scenes take one or two
+
+
+def _run_mine(program: Path, args: list[str]) -> int:
+    """After a while it says what a function that never ends looks like."""
+    words = (
+        "your program is still drawing. If nothing moves, one of your functions may never end: Ctrl-C stops it, and "
+        f"{own_command()} check names the line where it was"
+    )
+    telling = threading.Timer(_LONG, _say, [words])
+    telling.daemon = True
+    telling.start()
+    try:
+        return run_raytrace(program, args)
+    finally:
+        telling.cancel()
+
+
+def _draw(run: Callable[[Path, list[str]], int], program: Path, args: list[str], picture: str | None) -> int:
     """Says where the picture is, except in the picture itself."""
-    code = run_raytrace(program, args)
+    code = run(program, args)
     if code == 0 and picture is not None and "--quiet" not in args and not _is_where_we_print(Path(picture)):
         print(f"Picture: {picture}", flush=True)
     return code
@@ -246,14 +265,14 @@ def run_words(project: Project, args: list[str]) -> int:
     for option in ("-o", "--stats"):
         refuse_place(args, option)
     if impl == "reference":
-        kit = build_kit(project, lambda text: _say(text, first=False))
-        return _draw(kit.reference("raytrace"), args, picture)
+        kit = build_kit(project, _say)
+        return _draw(run_raytrace, kit.reference("raytrace"), args, picture)
     refuse_missing_tree(project, args)
     program = build_mine(release_tree(project))
     if picture is None:
-        return run_raytrace(program, args)
+        return _run_mine(program, args)
     more, said = as_far_as_written(project, args)
-    code = _draw(program, [*args, *more], picture)
+    code = _draw(_run_mine, program, [*args, *more], picture)
     if code != _USAGE:  # then it says what is wrong with the words, and nothing was drawn
         notes = [note for note in (said, advice(project, wanted_step(project, [*args, *more]))) if note]
         print("".join(f"raysteps: {note}\n" for note in notes), end="", file=sys.stderr)
