@@ -1,10 +1,13 @@
 """What is said when a step does not build."""
 
+import shutil
+from pathlib import Path
+
 import pytest
 
-from raysteps.common.process import Outcome
+from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
-from raysteps.grading.build_messages import compile_message, forbidden_message, link_message
+from raysteps.grading.build_messages import _IN_OTHER_WORDS, compile_message, forbidden_message, link_message
 from raysteps.sandbox.task import LimitHit, TaskResult
 
 SOURCE = "#include <a>\n\nint one;\nint two = nope;\nint three;\n"
@@ -44,6 +47,52 @@ def test_more_errors_are_told_in_a_line_each(shadows: Step, said: list[str], tol
     shown, _, rest = compile_message(shadows, SOURCE, ran(output)).partition("\nMore errors, ")
     assert shown.startswith(f"It does not build: shadows.cpp:{said[0].replace(': ', ':1: ')}\n")
     assert rest.partition("\n")[2] == told
+
+
+# Wrong lines of a beginner's, and a part of what each should be told.
+_WRONG = {
+    "glm::vec3 f(glm::vec3 v) { return 2 * v; }": "takes floats only",
+    "glm::vec3 f(const glm::vec3& v) { return v / 2.0; }": "takes floats only",
+    "float f(float x) { return std::max(0.0, x); }": "of one type",
+    "float f(float x) { return glm::clamp(x, 0, 1); }": "of one type",
+    "float f(const std::optional<Hit>& hit) { return hit.distance; }": "ask has_value() first",
+    "float Hit::twice() { return 2.0F * distance; }": "as the header declares it",
+    "void f(float x) { if (x > 0.0F) { x = 0.0F; }\nvoid g() {}": "closing brace is missing",
+    "void f(const glm::vec3& v) { v.x = 0.0F; }": "change a copy",
+    "void f(const glm::vec3& v) { nope(v); }": "",
+    "glm::vec3 f(const Hit& v) { return v * v; }": "",
+    "void f() { g() }": "",
+}
+_BEGIN = "#include <algorithm>\n#include <glm/glm.hpp>\n#include <optional>\n"
+_BEGIN += "struct Hit { float distance; float twice() const; };\n"
+_COMPILERS = [name for name in ("g++", "clang++", "clang++-14") if shutil.which(name)]
+
+
+@pytest.mark.parametrize("wrong", _WRONG)
+@pytest.mark.parametrize("compiler", _COMPILERS)
+def test_beginners_are_told_in_other_words(shadows: Step, tmp_path: Path, compiler: str, wrong: str) -> None:
+    source = tmp_path / "shadows.cpp"
+    source.write_text(f"{_BEGIN}{wrong}\n")
+    words: list[str | Path] = [compiler, "-std=c++20", "-fsyntax-only", "-fno-diagnostics-color", source]
+    output = run(words, seconds=60).stderr
+    message = compile_message(shadows, source.read_text(), ran(output))
+    told = {words for _, words in _IN_OTHER_WORDS if words in message.splitlines()}
+    assert [_WRONG[wrong] in one for one in told] == ([True] if _WRONG[wrong] else [])
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("C2677: binary '*': no global operator found which takes type 'glm::vec3' and 'int'", "takes floats only"),
+        ("C2672: 'std::max': no matching overloaded function found", "of one type"),
+        ("C2039: 'distance': is not a member of 'std::optional<raysteps::Hit>'", "ask has_value() first"),
+        ("C2511: 'float Hit::twice(void)': overloaded member function not found in 'Hit'", "as the header declares it"),
+        ("C1075: '{': no matching token found", "closing brace is missing"),
+        ("C3490: 'x' cannot be modified because it is being accessed through a const object", "change a copy"),
+    ],
+)
+def test_microsofts_compiler_is_told_in_other_words(shadows: Step, said: str, told: str) -> None:
+    assert told in compile_message(shadows, SOURCE, ran(f"C:\\kit\\shadows.cpp(4): error {said}\n")).splitlines()[4]
 
 
 @pytest.mark.parametrize(

@@ -70,6 +70,44 @@ def _more(errors: list[_Error]) -> str:
     return f"\nMore errors, which may all come from that one:{told}{further}" if others else ""
 
 
+# What those mean to say who are new to C++ and glm, in the words of GCC, Clang and Microsoft's compiler.
+_IN_OTHER_WORDS = (
+    (
+        r"(?:operand types are|invalid operands|C267[6-9]:)"
+        r"(?=.*vec\W?\d)(?=.*'(?:const )?(?:unsigned |long )*(?:int|double|long)\b)",
+        "A vector of glm takes floats only: write 2.0F, not 2 or 2.0, or float(x).",
+    ),
+    (
+        r"(?:no matching function for call to|C2672:) '(?:std::|glm::)?(?:max|min|clamp|mix)\b",
+        "All its arguments must be of one type: beside a float 0.0F, not 0 or 0.0.",
+    ),
+    (
+        r"'(?:const )?(?:class )?std::optional<.*has no member"
+        r"|(?:no member named .* in|is not a member of) '(?:const )?std::optional<",
+        "A std::optional may hold nothing: ask has_value() first, then write -> in place of the dot.",
+    ),
+    (
+        r"no declaration matches|out-of-line definition of .* does not match|C2511:",
+        "It must stand here as the header declares it: the same arguments, with const and & where they are there.",
+    ),
+    (
+        r"function.definition is not allowed here|expected '}'(?: at end of input)?$|C1075:|C2601:",
+        "A closing brace is missing somewhere above: each { needs one.",
+    ),
+    (
+        r"discards qualifiers|read-only|cannot assign to .* const|C2166:|C3490:",
+        "What is const stays as it is: change a copy of it.",
+    ),
+)
+
+
+def _other_words(text: str) -> str:
+    """The same as a line of its own, for what many meet first; else nothing."""
+    plain = re.sub("[\u2018\u2019]", "'", text)
+    found = next((words for pattern, words in _IN_OTHER_WORDS if re.search(pattern, plain)), None)
+    return "" if found is None else f"\n{found}"
+
+
 def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     """One sentence, the place, the lines, and what else."""
     if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
@@ -81,8 +119,11 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     own = [error for error in errors if error.file == step.file]
     for error in own or errors:
         place = f"{error.file}:{error.line}" + (f":{error.column}" if error.column else "")
-        text = f"It does not build: {place}: {shorten(error.text, 300)}"
-        return f"{text}\n{_context(source, error.line, error.column)}{_more(own)}" if own else text
+        said = shorten(error.text, 300)
+        text = f"It does not build: {place}: {said}"
+        if own:
+            text += f"\n{_context(source, error.line, error.column)}{_other_words(said)}{_more(own)}"
+        return text
     telling = [line for line in output.splitlines() if re.search("error:|terminated|Error", line)]
     said = shorten(telling[-1] if telling else output.strip().rpartition("\n")[2], 300)
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
