@@ -7,7 +7,7 @@ import pytest
 
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
-from raysteps.grading.build_messages import _IN_OTHER_WORDS, compile_message, forbidden_message, link_message
+from raysteps.grading.build_messages import IN_OTHER_WORDS, compile_message, forbidden_message, link_message
 from raysteps.sandbox.task import LimitHit, TaskResult
 
 SOURCE = "#include <a>\n\nint one;\nint two = nope;\nint three;\n"
@@ -76,7 +76,7 @@ def test_beginners_are_told_in_other_words(shadows: Step, tmp_path: Path, compil
     words: list[str | Path] = [compiler, "-std=c++20", "-fsyntax-only", "-fno-diagnostics-color", source]
     output = run(words, seconds=60).stderr
     message = compile_message(shadows, source.read_text(), ran(output))
-    told = {words for _, words in _IN_OTHER_WORDS if words in message.splitlines()}
+    told = {words for _, words in IN_OTHER_WORDS if words in message.splitlines()}
     assert [_WRONG[wrong] in one for one in told] == ([True] if _WRONG[wrong] else [])
 
 

@@ -99,14 +99,15 @@ def test_a_mistake_is_told_as_the_grader_tells_it(page: "Page", solved: dict[str
 def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 
-    wrong = solved["01-camera-rays"].replace(POINT, "return ray.orgin;")
+    wrong = solved["01-camera-rays"].replace(POINT, "return ray.orgin;") + "auto twice(glm::vec3 v) { return 2 * v; }\n"
     line = next(at for at, text in enumerate(wrong.splitlines(), start=1) if "orgin" in text)
     save(page, wrong)
     expect(page.locator("#play-stale")).to_be_hidden()
     status_says(page, r"It does not compile\.")
     expect(page.locator("#play-stale")).to_be_visible()
     expect(page.locator("#play-problems")).to_contain_text("no member named 'orgin' in 'raysteps::Ray'")
-    expect(page.locator(".cm-lintRange-error")).to_have_text("orgin")
+    expect(page.locator("#play-problems strong", has_text="write 2.0F, not 2 or 2.0")).to_have_count(1)
+    expect(page.locator(".cm-lintRange-error").first).to_have_text("orgin")
     page.locator("#play-problems button").first.click()
     expect(page.locator(".cm-activeLine")).to_have_text("    return ray.orgin;")
     expect(page.locator("#play-problems button").first).to_have_text(f"camera_rays.cpp:{line}")

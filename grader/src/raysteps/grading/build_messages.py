@@ -70,8 +70,9 @@ def _more(errors: list[_Error]) -> str:
     return f"\nMore errors, which may all come from that one:{told}{further}" if others else ""
 
 
-# What those mean to say who are new to C++ and glm, in the words of GCC, Clang and Microsoft's compiler.
-_IN_OTHER_WORDS = (
+# What errors mean that many meet first who are new to C++ and glm, as GCC, Clang and Microsoft's compiler write them.
+# JavaScript reads these patterns, too.
+IN_OTHER_WORDS = (
     (
         r"(?:operand types are|invalid operands|C267[6-9]:)"
         r"(?=.*vec\W?\d)(?=.*'(?:const )?(?:unsigned |long )*(?:int|double|long)\b)",
@@ -104,7 +105,7 @@ _IN_OTHER_WORDS = (
 def _other_words(text: str) -> str:
     """The same as a line of its own, for what many meet first; else nothing."""
     plain = re.sub("[\u2018\u2019]", "'", text)
-    found = next((words for pattern, words in _IN_OTHER_WORDS if re.search(pattern, plain)), None)
+    found = next((words for pattern, words in IN_OTHER_WORDS if re.search(pattern, plain)), None)
     return "" if found is None else f"\n{found}"
 
 

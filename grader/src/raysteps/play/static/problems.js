@@ -15,14 +15,21 @@ function problemsIn(text) {
   }));
 }
 
+/** What an error means that many meet first. */
+function otherWords({ severity, message }) {
+  const known = data.words.inOtherWords.find(([pattern]) => severity === "error" && new RegExp(pattern).test(message));
+  return known ? ` ${known[1]}` : "";
+}
+
 /** `goTo` leads to its line; none where another file has it. */
-function problem({ file, line, severity, message }, goTo) {
+function problem(found, goTo) {
+  const { file, line, severity, message } = found;
   const where = `${file.split("/").at(-1)}:${line}`;
   const place = goTo ? make("button", { type: "button", class: "play-place" }, where) : make("code", {}, where);
   if (goTo) {
     place.addEventListener("click", () => goTo(line));
   }
-  return make("p", { class: `play-problem play-${severity}` }, place, ` ${severity}: ${message}`);
+  return make("p", { class: `play-problem play-${severity}` }, place, ` ${severity}: ${message}`, make("strong", {}, otherWords(found)));
 }
 
 /** Of a build of the step that is open. */
