@@ -14,7 +14,8 @@ MAX_DEPTH = MAX_ABOVE + 3  # of an accepted place: top folders, steps, step, fil
 MAX_UNPACKED = 256 << 20
 MAX_RATIO = 200  # honest sources shrink to a fifth, honest pictures to a hundredth
 RATIO_COUNTS_FROM = 32 << 20
-_TOOLS_FOLDERS = ("__MACOSX", "build")
+_TOOLS_FOLDERS = ("__MACOSX", "build", "CMakeFiles", "_deps", "node_modules")
+_TOOLS_BEGIN = (".", "cmake-build-")  # names as editors give them
 
 
 class RejectedFile(Exception):
@@ -47,7 +48,7 @@ def split(path: str) -> tuple[str, ...] | None:
 
 def is_out_of_sight(folders: tuple[str, ...]) -> bool:
     """What counts as nothing, not even as a file too many: folders of tools, and what lies too deep."""
-    return len(folders) >= MAX_DEPTH or any(part.startswith(".") or part in _TOOLS_FOLDERS for part in folders)
+    return len(folders) >= MAX_DEPTH or any(part.startswith(_TOOLS_BEGIN) or part in _TOOLS_FOLDERS for part in folders)
 
 
 def too_many(root: Path) -> UsageError:
