@@ -52,6 +52,22 @@ def test_answers_by_chance_are_alike_where_they_are_wrong_in_the_same_way() -> N
     assert answer_similarity(function, case, "0 0 0", said, another) == 0
 
 
+def test_answers_by_chance_that_are_spread_in_another_way_are_not_alike() -> None:
+    """Nobody who has all points in the middle took a random number without its root."""
+    function = functions_of("12")["unit_disk"]
+    case = Case("unit_disk", "many points", {})
+
+    def similarity(*mine: int) -> float:
+        words = "too many points lie near the middle"
+        said = ObservedAnswers("1 2", words, spread=(1024, 512, 256, 256))
+        return answer_similarity(function, case, "0 0", said, ObservedAnswers("3 4", words, spread=mine))
+
+    assert similarity(1000, 530, 260, 258) > 0.7
+    assert similarity(256, 512, 256, 1024) > 0.7, "the same, turned"
+    assert similarity(2048, 0, 0, 0) == 0
+    assert similarity() == 0
+
+
 def test_the_same_numbers_are_the_same_answer() -> None:
     questions = _questions()
     function, case = questions.function, questions.cases[0]
@@ -263,7 +279,9 @@ def test_a_picture_of_one_colour_has_no_name() -> None:
 
 
 def test_fingerprints_come_back_from_their_file(tmp_path: Path) -> None:
-    answers = {"mirror": {3: ObservedAnswers("1 2 3", "it is wrong"), 4: ObservedAnswers("", "", known=False)}}
+    answers = {
+        "mirror": {3: ObservedAnswers("1 2 3", "it is wrong", spread=(3, 1)), 4: ObservedAnswers("", "", known=False)}
+    }
     known = {
         "one": MutantFingerprint(answers, {"lit": np.ones((2, 3, 3), dtype=np.uint8)}),
         "two": MutantFingerprint({}, {}),

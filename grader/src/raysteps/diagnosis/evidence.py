@@ -18,6 +18,7 @@ from raysteps.judge.hidden_tests import make_cases, reference_lines
 from raysteps.judge.octrees import TREE
 from raysteps.judge.plan import Plan
 from raysteps.judge.protocol import ProtocolError
+from raysteps.judge.statistics import Uneven
 from raysteps.judge.worker import Ask, Reply, TimeBudget, ask_worker, reference_answers
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -31,12 +32,14 @@ _LONGEST = 6000  # characters; of a longer answer its hash will do
 
 @dataclass(frozen=True)
 class ObservedAnswers:
-    """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked. `boxes`: of a tree."""
+    """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked. `boxes`: of a tree.
+    `spread`: how many of the numbers drawn by chance fell into each bar, where that is the problem."""
 
     line: str
     problem: str
     known: bool = True
     boxes: int = 0
+    spread: tuple[int, ...] = ()
 
 
 Answers: TypeAlias = Mapping[
@@ -84,7 +87,8 @@ def _said(function: Function, case: Case, right: str, reply: Reply) -> ObservedA
         return None
     long = len(reply.line) > _LONGEST
     line = "#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line
-    return ObservedAnswers(line, str(problem), boxes=_boxes(function, reply.line))
+    spread = tuple(problem.histogram.counts) if isinstance(problem, Uneven) else ()
+    return ObservedAnswers(line, str(problem), boxes=_boxes(function, reply.line), spread=spread)
 
 
 def _boxes(function: Function, line: str) -> int:
@@ -241,6 +245,22 @@ def _as_many(one: int, other: int) -> bool:
     return max(one, other) <= _TIMES * min(one, other) + 1
 
 
+_SPREAD = 0.12  # of all numbers: so many may lie in other bars
+_SPREAD_OF_CHANCE = 2.0  # deviations of what chance moves there
+
+
+def _spread_alike(one: Sequence[int], other: Sequence[int]) -> bool:
+    """Whether the bars of two histograms are the same, in any order: a frame may be turned, an angle run backwards.
+    The same words are said of points that crowd a little and of points that all lie at one place."""
+    if not one or not other:
+        return len(one) == len(other)
+    mine, theirs = (np.sort(np.array(counts) / max(sum(counts), 1)) for counts in (one, other))
+    if len(mine) != len(theirs):
+        return False
+    moved = float(np.abs(mine - theirs).sum()) / 2
+    return moved <= _SPREAD + _SPREAD_OF_CHANCE / math.sqrt(min(sum(one), sum(other)))
+
+
 def answer_similarity(
     function: Function, case: Case, right: str, mistake: ObservedAnswers, mine: ObservedAnswers
 ) -> float:
@@ -252,6 +272,7 @@ def answer_similarity(
         return 0.0  # one of them gave no answer
     if function.answer in (TREE, BVH):  # everybody divides space in another way
         return 1.0 if same_problem and _as_many(mistake.boxes, mine.boxes) else 0.0
+    same_problem = same_problem and _spread_alike(mistake.spread, mine.spread)
     if mistake.line.startswith("#") or mine.line.startswith("#"):
         return 1.0 if same_problem else 0.0
     if mistake.line.startswith("threw") or mine.line.startswith("threw"):

@@ -71,7 +71,10 @@ def read_known(path: Path) -> Known | None:
     return {
         mistake: MutantFingerprint(
             {
-                function: {int(number): ObservedAnswers(**said) for number, said in wrong.items()}
+                function: {
+                    int(number): ObservedAnswers(**said | {"spread": tuple(said["spread"])})
+                    for number, said in wrong.items()
+                }
                 for function, wrong in functions.items()
             },
             {name: pixels for (owner, name), pixels in pictures.items() if owner == mistake},
