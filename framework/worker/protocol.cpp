@@ -1,6 +1,8 @@
 #include "worker/protocol.hpp"
 
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 
 #include "io/numbers.hpp"
 
@@ -36,6 +38,16 @@ int TokenReader::whole() {
         throw ProtocolError("expected a whole number, found " + text);
     }
     return static_cast<int>(value);
+}
+
+std::uint32_t TokenReader::index() {
+    const std::string text = word();
+    char* end = nullptr;
+    const long long value = std::strtoll(text.c_str(), &end, 10);
+    if (end != text.c_str() + text.size() || value < 0 || value > std::numeric_limits<std::uint32_t>::max()) {
+        throw ProtocolError("expected an index, found " + text);
+    }
+    return static_cast<std::uint32_t>(value);
 }
 
 int TokenReader::count() {

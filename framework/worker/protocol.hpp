@@ -2,6 +2,7 @@
 // The text that the worker reads and writes: words and numbers between blanks, and the kit's values as such numbers.
 // The judge's protocol.py writes and reads the same order.
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <stdexcept>
@@ -34,6 +35,7 @@ public:
     [[nodiscard]] std::string word();
     [[nodiscard]] float number();  ///< also inf, -inf and nan
     [[nodiscard]] int whole();
+    [[nodiscard]] std::uint32_t index();  ///< any that 32 bits hold, which is more than an int does
     [[nodiscard]] bool flag() { return whole() != 0; }
     [[nodiscard]] int count();  ///< from 0 to a million
     [[nodiscard]] glm::vec3 vector();

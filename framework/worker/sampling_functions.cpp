@@ -51,12 +51,10 @@ void ask_stratified_samples(TokenReader& words, TokenWriter& answer) {
 
 void ask_radical_inverse(TokenReader& words, TokenWriter& answer) {
     const auto base = static_cast<std::uint32_t>(at_least(2, words.whole()));
-    answer.number(radical_inverse(base, static_cast<std::uint32_t>(words.whole())));
+    answer.number(radical_inverse(base, words.index()));
 }
 
-void ask_halton_point(TokenReader& words, TokenWriter& answer) {
-    write_point(answer, halton_point(static_cast<std::uint32_t>(words.whole())));
-}
+void ask_halton_point(TokenReader& words, TokenWriter& answer) { write_point(answer, halton_point(words.index())); }
 
 void ask_tent_filter(TokenReader& words, TokenWriter& answer) { answer.number(tent_filter(words.number())); }
 

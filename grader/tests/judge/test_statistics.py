@@ -145,7 +145,15 @@ def test_a_point_on_the_border_of_its_square_may_be_rounded_across() -> None:
             lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[..., :1]) / _SIDE,
             "x and y of a point",
         ),
-        (lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[:, :1]) / _SIDE, "different squares"),
+        (
+            lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[:, :1]) / _SIDE,
+            "all squares have their points at the same",
+        ),
+        (lambda p: _with_shares(p, np.repeat(_shares(p)[:, :, :1], _SIDE, axis=2)), "the squares of a row"),
+        (lambda p: _with_shares(p, np.repeat(_shares(p)[:, :1], _SIDE, axis=1)), "the squares of a column"),
+        (lambda p: _with_shares(p, np.floor(_shares(p) * 16) / 16 + 0.01), "a few places of their squares"),
+        (lambda p: _with_shares(p, _one_stays(_shares(p))), "some squares have their point always"),
+        (lambda p: _with_shares(p, _shares(p) * [1, 0] + [0, 0.5]), "do not lie everywhere"),
         (
             lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[np.arange(len(p)) // 2]) / _SIDE,
             "the same for different streams",
@@ -164,6 +172,13 @@ def _shares(points: Numbers) -> Numbers:
 
 def _with_shares(points: Numbers, shares: Numbers) -> Numbers:
     return np.asarray((np.floor(points * _SIDE) + shares.reshape(points.shape)) / _SIDE)
+
+
+def _one_stays(shares: Numbers) -> Numbers:
+    """The last square's point lies in its middle."""
+    found = shares.copy()
+    found[:, -1, -1] = 0.5
+    return found
 
 
 def _turned_round(shares: Numbers) -> None:

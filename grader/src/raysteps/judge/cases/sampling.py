@@ -92,19 +92,52 @@ def _are_dependent(one: Numbers, other: Numbers) -> bool:
 
 _SQUARES = "the points of different squares have to do with each other"
 _STREAMS = "points are the same for different streams"
+_SOME_SQUARES = "some squares have their point always at the same place"
+_FEW_PLACES = "points lie at a few places of their squares only"
 _ROUNDING = 1e-6  # of a place in a square: float knows it no better
+
+
+def _varies(numbers: Numbers) -> bool:
+    return float(numbers.std()) > _ROUNDING
+
+
+def _copies(in_time: Numbers, shares: Numbers) -> str:
+    """Numbers of one coordinate that come again, in other squares (the columns) or for other streams (the rows)."""
+    among_squares, among_streams = many_alike(in_time, _ROUNDING), many_alike(in_time.T, 0.0)
+    if among_squares and among_streams and _varies(in_time.std(axis=0)):
+        return _FEW_PLACES
+    if among_squares:
+        return _of_shared_squares(shares)
+    if among_streams:
+        stay = in_time.std(axis=0) <= _ROUNDING
+        return _SOME_SQUARES if stay.any() and not stay.all() else _STREAMS
+    return ""
+
+
+def _of_shared_squares(shares: Numbers) -> str:
+    """Which squares have one random shift together."""
+    in_rows, in_columns = (
+        shares.shape[axis] > 1 and float((np.abs(np.diff(shares, axis=axis)) > _SHARED).mean()) < 0.01
+        for axis in (2, 1)
+    )
+    if in_rows and in_columns:
+        return "all squares have their points at the same place in them"
+    if in_rows or in_columns:
+        return f"the squares of a {'row' if in_rows else 'column'} have their points at the same place in them"
+    return _SQUARES
+
+
+_SHARED = 1e-4  # of a square
 
 
 def _problem_of_squares(shares: Numbers) -> str:
     """Shares: times, rows, columns, x and y, each from 0 to 1 within its square. Numbers that were used several times
     are looked for first: they make everything else uneven. Where all are the same they are no copies."""
     times, rows, columns, _ = shares.shape
-    if float(shares.std()) > _ROUNDING:
-        in_time = shares.reshape(times, rows * columns, 2)
-        if any(many_alike(in_time[..., axis], _ROUNDING) for axis in range(2)):
-            return _SQUARES
-        if any(many_alike(in_time[..., axis].T, 0.0) for axis in range(2)):
-            return _STREAMS
+    in_time = shares.reshape(times, rows * columns, 2)
+    copied = first(*(_copies(in_time[..., axis], shares) for axis in range(2) if _varies(in_time[..., axis])))
+    if copied:
+        return copied
     points = shares.reshape(-1, 2)
     bins = _MANY if len(points) >= _MANY_POINTS else _FEW
     for axis, way in zip("xy", points.T, strict=True):
@@ -199,6 +232,7 @@ _RADICAL_INVERSE = Function(
         Group("one digit", lambda d: _inverse(d.whole(3, 40), d.whole(1, 2))),
         Group("index 0", lambda d: _inverse(_base(d), 0), exact=True),
         Group("a large index", lambda d: _inverse(_base(d), d.whole(10_000_000, 1_000_000_000))),
+        Group("more than an int holds", lambda d: _inverse(_base(d), d.whole(1 << 31, (1 << 32) - 1))),
         Group("close to 1", _next_to_one, exact=True),
     ),
 )
@@ -225,6 +259,7 @@ _HALTON = Function(
         Group("any index", lambda d: {"index": Whole(d.whole(1, 10_000))}),
         Group("the first points", lambda d: {"index": Whole(d.whole(0, 15))}, exact=True),
         Group("a large index", lambda d: {"index": Whole(d.whole(10_000_000, 1_000_000_000))}),
+        Group("more than an int holds", lambda d: {"index": Whole(d.whole(1 << 31, (1 << 32) - 1))}),
     ),
 )
 
@@ -311,6 +346,17 @@ def _negative_light(draw: RandomSource) -> Inputs:
     return {"filter": _Filter(_MITCHELL_KIND), "samples": PixelSamples((near, far))}
 
 
+def _below_zero(draw: RandomSource) -> Inputs:
+    """All samples lie where the filter is below 0, and so do the weights' sum; their mean is light like any other."""
+
+    def far() -> tuple[float, float]:
+        out, near = draw.sign() * draw.real(1.3, 1.7), draw.real(-0.5, 0.5)
+        return (out, near) if draw.chance(0.5) else (near, out)
+
+    samples = tuple(PixelSample(far(), draw.color(0.1, 2.0)) for _ in range(draw.whole(1, 4)))
+    return {"filter": _Filter(_MITCHELL_KIND), "samples": PixelSamples(samples)}
+
+
 _COLOR = Answer(
     read_vector,
     words_of_vector,
@@ -326,6 +372,7 @@ _RECONSTRUCT = Function(
         Group("one sample", lambda d: _samples(d, _EVERY, 1)),
         Group("one is very bright", _one_is_bright),
         Group("the answer is below 0", _negative_light),
+        Group("the weights' sum is below 0", _below_zero),
         Group("nothing counts", _of_no_weight, exact=True),
     ),
 )
