@@ -6,9 +6,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from raysteps.common.vectors import cross, unit
 from raysteps.judge.counterexamples import is_same_kind
 from raysteps.judge.functions import Function, functions_of
-from raysteps.judge.protocol import Inputs
+from raysteps.judge.protocol import Frame, Inputs, Ray, real_of
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers, Uneven
 
@@ -136,3 +137,36 @@ def test_a_wrong_factor_may_be_another_in_a_smaller_case() -> None:
     assert not is_same_kind(half, hardly)
     assert tiny == "pdf is too small, by the same factor for all points"
     assert hardly == "pdf is too large, by the same factor for all points"
+
+
+def _lens_rays(inputs: Inputs, spokes: Numbers) -> Numbers:
+    """From there on, beside the middle of the lens, to what is sharp."""
+    frame, ray = inputs["frame"], inputs["ray"]
+    assert isinstance(frame, Frame)
+    assert isinstance(ray, Ray)
+    forward, way, middle = (np.array(v) for v in (frame.forward, ray.direction, ray.origin))
+    ways = middle + way * (real_of(inputs, "focal_distance") / (way @ forward)) - (middle + spokes)
+    return np.hstack([middle + spokes, ways / np.linalg.norm(ways, axis=1)[:, None]])
+
+
+@pytest.mark.parametrize(
+    ("radius", "across_the_ray", "said"),
+    [
+        (0.99, False, ""),
+        (1.3, False, "a ray starts beyond the rim of the lens"),
+        (2.0, False, "a ray starts far beyond the rim of the lens"),
+        (0.99, True, "the lens lies across the ray, and not across the view"),
+    ],
+)
+def test_lenses_are_told_by_how_they_are_wrong(radius: float, *, across_the_ray: bool, said: str) -> None:
+    inputs = _inputs("lens_ray", "a few rays")
+    frame, ray = inputs["frame"], inputs["ray"]
+    assert isinstance(frame, Frame)
+    assert isinstance(ray, Ray)
+    right, up = np.array(frame.right), np.array(frame.up)
+    if across_the_ray:
+        side = unit(cross(ray.direction, frame.up))
+        right, up = np.array(side), np.array(cross(ray.direction, side))
+    turns = np.arange(8)[:, None] * math.pi / 4
+    spokes = real_of(inputs, "lens_radius") * radius * (np.cos(turns) * right + np.sin(turns) * up)
+    assert _problem(_FUNCTIONS["lens_ray"], inputs, _lens_rays(inputs, spokes)) == said

@@ -445,7 +445,10 @@ def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     heights = _heights(local) / height
     slack = 2e-3 + _ROOT_OF_FLOAT * distance / radius
     if float(np.abs(sizes - 1).max()) > slack:
-        position = _where("a point lies off the sphere", spokes)
+        reach = np.linalg.norm(ways, axis=1)
+        near = "points are all as near as the nearest one of the sphere, so most of them lie off it"
+        is_near = float(np.abs(reach - (distance - radius)).max()) <= slack * radius
+        position = near if is_near else _where("a point lies off the sphere", spokes)
     elif float((spokes @ z).max()) > -sine + 0.05 + slack:
         position = "a point lies on the side of the sphere that is not seen"
     else:
@@ -538,12 +541,13 @@ def _brought(draw: RandomSource, low: float, high: float, *, pdf: float | None =
     """By a lamp with that cosine at the hit."""
     position, normal = draw.point(4), draw.direction()
     hit = Hit(position, normal, times(-1.0, draw.above(normal, 0.2, 0.95)), draw.real(1, 9), draw.fill())
-    place = rounded(add(position, draw.above(normal, low, high), draw.real(0.5, 8)))
+    way = draw.above(normal, low, high)
+    place = rounded(add(position, way, draw.real(0.5, 8)))
     return {
         "hit": hit,
         "radiance": Vec(draw.color(0.5, 12)),
         "position": Vec(place),
-        "normal": Vec(draw.direction()),
+        "normal": Vec(draw.above(times(-1.0, way), 0.1, 0.95)),  # what has a density shines this way
         "pdf": Real(draw.logarithmic(0.1, 10) if pdf is None else pdf),
     }
 
@@ -599,9 +603,12 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     lifted = float(np.abs(spokes @ np.array(frame.forward)).max())
     apart = origins if radius else origins[:1]  # a lens without a size is one point, and no fault
     if lifted > slack:
-        origin = _where("a ray starts outside of the lens's plane", apart)
+        across = radius and float(np.abs(spokes @ np.array(ray.direction)).max()) <= slack
+        plane = "the lens lies across the ray, and not across the view"
+        origin = plane if across else _where("a ray starts outside of the lens's plane", apart)
     elif math.sqrt(float(squares.max())) > radius + slack:
-        origin = _where("a ray starts beyond the rim of the lens", apart)
+        far = "far " if float(squares.max()) > 2.1 * radius * radius else ""  # no square around the lens is so wide
+        origin = _where(f"a ray starts {far}beyond the rim of the lens", apart)
     elif radius:
         origin = _evenness(inputs, _DISK, _shares(squares / radius**2, _turns(of_x, of_y)))
     else:
