@@ -1,12 +1,13 @@
 """Cases of step 15: weights of two ways to the same light, densities of lamps, and paths that find lamps both ways."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from raysteps.common.vectors import Vector, add, cross, minus, unit
 from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, number_answer, read_vector
-from raysteps.judge.cases.path_tracing import length_problem, often, once, path_answer
+from raysteps.judge.cases.path_tracing import VERY_LATE, length_problem, often, once, path_answer
 from raysteps.judge.estimates import Estimates, estimates_problem
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, Real, Vec, f32, rounded, vector_words
@@ -320,6 +321,12 @@ def _in_turn(draw: RandomSource) -> MisScript:
     return MisScript(_BLACK, goes_on=True, hits=(_plate(draw, draw.fine(3, 8), (lamp,), 0.8, 0.92),))
 
 
+def _late(draw: RandomSource) -> MisScript:
+    """Plates without lamps, and light behind all of them: who cuts paths off finds none."""
+    plates = (replace(_plate(draw, 1.0, (), 0.97, 0.99), distance=f32(i + 2.5)) for i in range(VERY_LATE))
+    return MisScript(draw.color(0.5, 1.0), goes_on=False, hits=tuple(plates))
+
+
 def mean_of_plates(script: MisScript) -> Vector:
     """What paths bring on average between plates; the last one may come again and again."""
     light = np.array(script.background)
@@ -366,6 +373,7 @@ _MIS_PATH_LIGHT = Function(
         Group("a dull plate, a small lamp", lambda d: often(d, _dull(d), 0.05)),
         Group("lamps of all sizes", lambda d: often(d, _of_all_sizes(d), 0.06)),
         Group("plate after plate", lambda d: often(d, _in_turn(d), 0.1)),
+        Group("light found very late", lambda d: often(d, _late(d), 0.7)),
     ),
 )
 

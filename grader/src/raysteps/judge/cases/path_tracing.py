@@ -171,9 +171,36 @@ _WRONG_WEIGHTS = {
 }
 
 
-def _weight_problem(weights: Numbers, albedo: Numbers, cosines: Numbers) -> str:
+_WRONG_PDFS = {
+    "the pdf is 0": 0.0,
+    "the pdf is not divided by pi": math.pi,
+    "the pdf is divided by 2 pi": 0.5,
+    "the pdf is multiplied with pi": math.pi**2,
+}
+
+
+def _pdf_problem(pdfs: Numbers, cosines: Numbers) -> str:
+    """Of directions that are no numbers nothing is right."""
+    steep = cosines > _STEEP
+    pdfs, densities = pdfs[steep], np.maximum(cosines[steep], 0.0) / math.pi
+    if steep.any() and (np.abs(pdfs - densities) <= _DENSITY.absolute + 1e-3 * densities).all():
+        return ""
+    if steep.any() and np.ptp(pdfs) == 0 and pdfs[0] != 0:
+        of_all = abs(pdfs[0] - 1 / (2 * math.pi)) < 1e-4
+        return f"the pdf is {'that of directions that are all equally likely' if of_all else 'the same for all'}"
+    for words, factor in _WRONG_PDFS.items():
+        if steep.any() and np.allclose(pdfs, factor * densities, rtol=2e-3, atol=1e-9):
+            return words
+    return "the pdf is not that of the direction"
+
+
+def _weight_problem(weights: Numbers, fill: Fill, cosines: Numbers) -> str:
+    albedo = np.array(times(fill.kd, fill.color))
     if (np.abs(weights - albedo) <= _WEIGHT.absolute + _WEIGHT.relative * albedo).all():
         return ""
+    for words, other in (("kd", np.array(fill.color)), ("the colour", np.full(3, fill.kd))):
+        if np.allclose(weights, other, rtol=2e-3, atol=1e-5):
+            return f"the weight lacks {words}"
     steep = cosines > _STEEP
     for words, (factor, power) in _WRONG_WEIGHTS.items():
         wrong = factor * cosines[steep, np.newaxis] ** power * albedo
@@ -182,30 +209,21 @@ def _weight_problem(weights: Numbers, albedo: Numbers, cosines: Numbers) -> str:
     return "the weight is not f cos / pdf"
 
 
-def _of_the_hit(inputs: Inputs) -> tuple[Vector, Vector]:
-    """Normal, and albedo."""
+def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     hit = inputs["hit"]
     assert isinstance(hit, Hit)
-    return hit.normal, times(hit.fill.kd, hit.fill.color)
-
-
-def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
-    normal, albedo = _of_the_hit(inputs)
+    normal = hit.normal
     if actual.count != whole_of(inputs, "times"):
         return ("no proper answer came",) * 3
-    if not any(albedo):
+    if not any(times(hit.fill.kd, hit.fill.color)):
         return ("a surface that sends no light on gives samples",) * 3 if len(actual.rows) else ("", "", "")
     if actual.nothing:
         return ("nothing came from a surface that sends light on",) * 3
     cosines = actual.directions @ np.array(normal)
-    steep = cosines > _STEEP
-    densities = np.maximum(cosines, 0.0) / math.pi
-    near = np.abs(actual.pdfs - densities)[steep] <= _DENSITY.absolute + 1e-3 * densities[steep]
-    right_pdf = bool(steep.any() and near.all())  # of directions that are no numbers nothing is right
     return (
         _density_problem(actual.directions, normal),
-        _weight_problem(actual.weights, np.array(albedo), cosines),
-        "" if right_pdf else "the pdf is not that of the direction",
+        _weight_problem(actual.weights, hit.fill, cosines),
+        _pdf_problem(actual.pdfs, cosines),
         "a diffuse surface gives a specular sample" if actual.is_specular_somewhere else "",
     )
 
@@ -491,7 +509,16 @@ def _furnace(draw: RandomSource, low: float, high: float) -> PathScript:
     return PathScript(_BLACK, goes_on=True, hits=(hit,))
 
 
+def _glowing(draw: RandomSource) -> PathScript:
+    """Matt walls that are lamps, each of them sampled from the one before: what they send out counts for the eye only,
+    however long the path is."""
+    scatter = Scatter(draw.direction(), _gray(draw, 0.6, 0.7))
+    hit = PathHit(1.5, draw.direction(), draw.color(0.5, 1.0), draw.color(0.1, 0.3), scatter)
+    return PathScript(_BLACK, goes_on=True, hits=(hit,))
+
+
 _LATE = 32  # bounces: who cuts paths off finds nothing
+VERY_LATE = 104  # of two hundred paths one comes so far
 
 
 def _walls(draw: RandomSource, shares: Sequence[tuple[float, float]]) -> tuple[PathHit, ...]:
@@ -508,10 +535,10 @@ def _walls(draw: RandomSource, shares: Sequence[tuple[float, float]]) -> tuple[P
     )
 
 
-def _late(draw: RandomSource) -> PathScript:
+def _late(draw: RandomSource, bounces: int = _LATE) -> PathScript:
     """All light is found behind many bounces: roulette has taken most of the paths, and those left count more."""
-    dark = _walls(draw, [(0.97, 0.99)] * _LATE)
-    last = PathHit(_LATE + 2.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
+    dark = _walls(draw, [(0.97, 0.99)] * bounces)
+    last = PathHit(bounces + 2.5, draw.direction(), _BLACK, draw.color(0.5, 2.0), None)
     return PathScript(_BLACK, goes_on=False, hits=(*dark, last))
 
 
@@ -558,6 +585,8 @@ _PATH_LIGHT = Function(
         Group("a furnace", lambda d: often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: often(d, _furnace(d, 0.75, 0.8), 0.06)),
         Group("light found late", lambda d: often(d, _late(d), 0.2)),
+        Group("light found very late", lambda d: often(d, _late(d, VERY_LATE), 0.7)),
+        Group("walls that glow", lambda d: often(d, _glowing(d), 0.06)),
         Group("a dark wall", lambda d: often(d, _dark_wall(d), 0.3)),
         Group("coloured walls", lambda d: often(d, _colored_walls(d), 0.08)),
         Group("a hall of mirrors", lambda d: often(d, _hall_of_mirrors(d), 0.08)),
