@@ -148,8 +148,7 @@ TEST_CASE("the density of a sample is by solid angle, and its shadow ray ends at
     const LampRecord& disk = record.eye.lamps[1];
     const glm::vec3 way = disk.sample.position - hit;
     CHECK(disk.lamp == 1);
-    CHECK(disk.sample.pdf ==
-          about(glm::dot(way, way) / (glm::pi<float>() * 0.25F * glm::normalize(way).y), 1e-3));
+    CHECK(disk.sample.pdf == about(glm::dot(way, way) / (glm::pi<float>() * 0.25F * glm::normalize(way).y), 1e-3));
     REQUIRE(disk.rays.size() == 1);
     const RayNode& shadow = disk.rays.front();
     CHECK(shadow.role == RayRole::shadow);

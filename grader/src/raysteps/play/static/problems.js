@@ -29,7 +29,13 @@ function problem(found, goTo) {
   if (goTo) {
     place.addEventListener("click", () => goTo(line));
   }
-  return make("p", { class: `play-problem play-${severity}` }, place, ` ${severity}: ${message}`, make("strong", {}, otherWords(found)));
+  return make(
+    "p",
+    { class: `play-problem play-${severity}` },
+    place,
+    ` ${severity}: ${message}`,
+    make("strong", {}, otherWords(found)),
+  );
 }
 
 /** Of a build of the step that is open. */
