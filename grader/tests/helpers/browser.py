@@ -152,17 +152,51 @@ def broken_words(page: "Page", boxes: str) -> list[str]:
 
 def assert_no_sideways_scrolling(page: "Page") -> None:
     """A page may be long; it may not be wider than the screen."""
-    wide = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
-    assert wide <= 0, f"the page is {wide} pixels too wide"
+    wide, width = page.evaluate("[document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+    assert wide <= width, "the page is wider than the screen"
 
 
 _SMALL = """least => [...document.querySelectorAll('button, select, input, summary, [role=slider]')]
     .filter(one => one.checkVisibility({ visibilityProperty: true }) && !one.closest('.hidden-text'))
     .map(one => [one, one.getBoundingClientRect()])
-    .filter(([, { width, height }]) => width < least || height < least)
+    .filter(([one, { width, height }]) => width < least || height < least)
+    .filter(([one]) => !one.matches('label [type=checkbox]'))
     .map(([one, { width, height }]) => `${one.outerHTML.slice(0, 80)}: ${width} x ${height}`)"""
 
 
 def assert_large_enough(page: "Page", least: float = 24) -> None:
-    """For a finger: buttons and their like are so many pixels wide and high (WCAG 2.5.8)."""
+    """For a finger: buttons and their like are so many pixels wide and high (WCAG 2.5.8); a box to check has its words
+    to press."""
     assert page.evaluate(_SMALL, least) == []
+
+
+_CUT = """() => [...document.body.querySelectorAll('*')].filter(one => {
+    const { overflowX, overflowY, clipPath, display } = getComputedStyle(one);
+    const hides = [overflowX, overflowY].map(how => ['hidden', 'clip'].includes(how));
+    return one.textContent.trim() && one instanceof HTMLElement && clipPath === 'none' && display !== 'inline'
+        && (hides[0] && one.scrollWidth > one.clientWidth + 1 || hides[1] && one.scrollHeight > one.clientHeight + 1)
+        && one.checkVisibility({ visibilityProperty: true }) && !one.closest('.hidden-text, [aria-hidden=true]');
+}).map(one => one.outerHTML.slice(0, 120))"""
+
+# Phones, tablets and screens of all kinds; some are half of another one, as at 200 %.
+_SIZES = ((320, 568), (390, 844), (640, 360), (768, 1024), (1024, 600), (1280, 720), (1920, 1080), (2560, 1440))
+_LARGE_TEXT = ((320, 568), (1024, 600))
+
+
+def assert_fits_all_screens(page: "Page") -> None:
+    """From a small phone to a large screen, and with text twice as large: no scrolling sideways, no text that is cut
+    off, and nothing too small to be pressed."""
+
+    def look(width: int, height: int) -> None:
+        page.set_viewport_size({"width": width, "height": height})
+        page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        assert_no_sideways_scrolling(page)
+        assert page.evaluate(_CUT) == [], f"cut off at {width} x {height}"
+        assert_large_enough(page)
+
+    for size in _SIZES:
+        look(*size)
+    page.evaluate("document.documentElement.style.fontSize = '200%'")
+    for size in _LARGE_TEXT:
+        look(*size)
+    page.evaluate("document.documentElement.style.fontSize = ''")

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from browser import OpenPage, assert_accessible, assert_large_enough
+from browser import OpenPage, assert_accessible, assert_fits_all_screens, assert_large_enough
 from inspect_records import ball_record, lamp_record
 from play_pages import middle
 
@@ -202,10 +202,10 @@ def test_two_trees_beside_each_other(tmp_path: Path, open_page: OpenPage, width:
     assert "First difference" in page.locator(".divergence-note").inner_text()
     marked = page.locator(".ray.parts")
     assert [marked.nth(i).get_attribute("data-ray") for i in range(2)] == ["eye-light1", "eye-light1"]
-    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
     page.locator("button[data-space=reference]").click()
     assert page.evaluate("document.querySelector('pixel-inside').name") == "reference"
     assert_accessible(page)
+    assert_fits_all_screens(page)
 
 
 def test_without_webgl_the_tree_is_still_there(page: "Page") -> None:

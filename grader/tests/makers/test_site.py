@@ -8,7 +8,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
-from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
+from browser import OpenPage, assert_accessible, assert_fits_all_screens
 
 from raysteps.cli.app import main, new_parser
 from raysteps.common.errors import UsageError
@@ -207,8 +207,8 @@ def test_pages_show_all_without_a_network(site: Path, open_page: OpenPage) -> No
     first = read_steps(here())[1].id
     for name, width, scheme in (("index", 1440, "light"), (f"steps/{first}/README", 360, "dark")):
         page = open_page(site / f"{name}.html", width=width, scheme=scheme)
-        assert_no_sideways_scrolling(page)
         assert_accessible(page)
+        assert_fits_all_screens(page)
         broken = "[...document.images].filter(i => i.loading !== 'lazy' && !i.naturalWidth).map(i => i.src)"
         assert page.evaluate(broken) == []
     shown = page.locator("math").first.bounding_box()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 import pytest
-from browser import OpenPage, assert_accessible, assert_no_sideways_scrolling
+from browser import OpenPage, assert_accessible, assert_fits_all_screens, assert_no_sideways_scrolling
 from PIL import Image
 
 from raysteps.report import page as pages
@@ -375,8 +375,8 @@ def test_every_view_is_accessible_at_every_width(open_page: OpenPage, planted: P
         assert_no_sideways_scrolling(page)
     for summary in element.locator("summary").all():
         summary.click()
-    assert_no_sideways_scrolling(page)
     assert_accessible(page)
+    assert_fits_all_screens(page)
 
 
 def test_at_100_percent_a_pixel_of_the_picture_is_one_of_the_page(open_page: OpenPage, tmp_path: Path) -> None:

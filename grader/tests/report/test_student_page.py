@@ -8,7 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import OpenPage, Watched, assert_accessible, assert_no_sideways_scrolling, broken_words
+from browser import (
+    OpenPage,
+    Watched,
+    assert_accessible,
+    assert_fits_all_screens,
+    assert_no_sideways_scrolling,
+    broken_words,
+)
 from page_results import NASTY, document_of, idle_step, of_older_kit, passed_step, wrong_step
 from rich.console import Console
 
@@ -54,6 +61,8 @@ def test_it_is_clean_and_what_students_wrote_stays_text(
         assert text in said
     assert_accessible(page)
     assert_no_sideways_scrolling(page)
+    if width == 360:
+        assert_fits_all_screens(page)  # once: it is a long page
 
 
 def test_samples_are_drawn_beside_their_density(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from browser import Scheme, Watched, assert_accessible, assert_no_sideways_scrolling
+from browser import Scheme, Watched, assert_accessible, assert_fits_all_screens
 from watch_fakes import result_of
 
 from raysteps.course.manifest import Step
@@ -202,9 +202,9 @@ def test_a_step_that_is_done_leads_to_the_next(live: Live, pages: Watched, steps
 def test_everybody_can_read_it(live: Live, pages: Watched, width: int, scheme: Scheme) -> None:
     broken = live.view("// broken")
     page = pages.open(live.server.address, width=width, scheme=scheme, calm=True)
-    for view in (_failing(live), broken, live.view("int right;", full=True), replace(broken, gone=True)):
+    for view in (broken, live.view("int right;", full=True), replace(broken, gone=True), _failing(live)):
         live.show(view)
         text = json.loads(live.board.now().text)["verdict"]["text"]
         _says(page, "#watch-verdict", text)
         assert_accessible(page)
-        assert_no_sideways_scrolling(page)
+    assert_fits_all_screens(page)

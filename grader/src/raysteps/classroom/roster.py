@@ -252,5 +252,5 @@ def match(entries: list[str], students: list[Student]) -> Matches:
             shown = ", ".join(students[number].shown for number in best)
             matches.entry_notes[at] = f"Its name fits several students ({shown}), so it was given to none of them."
         elif students:
-            matches.entry_notes[at] = "Nobody on the roster has this name; say whose it is in the column `submission`."
+            matches.entry_notes[at] = 'Nobody on the roster has this name; say whose it is in the column "submission".'
     return matches

@@ -199,7 +199,8 @@ class DeskSubmission {
       button.setAttribute("aria-label", `Change the points for ${name || "the step"}`);
       return make("tr", {}, words, shown, make("td", {}, button));
     });
-    return make("table", { class: "desk-parts" }, make("tbody", {}, ...rows));
+    const table = make("table", { class: "desk-parts" }, make("tbody", {}, ...rows));
+    return make("div", { class: "scroll" }, table);
   }
 
   /** Comments that are at no line, and requests. */
