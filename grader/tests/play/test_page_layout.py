@@ -4,7 +4,14 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import pytest
-from browser import Watched, assert_accessible, assert_large_enough, assert_no_sideways_scrolling, broken_words
+from browser import (
+    Watched,
+    assert_accessible,
+    assert_fits_all_screens,
+    assert_large_enough,
+    assert_no_sideways_scrolling,
+    broken_words,
+)
 from play_pages import POINT, STARTED, save, status_says, write
 
 from raysteps.play.play_page import PlayServer
@@ -65,6 +72,13 @@ def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     page = watched.open(server.address, width=390, scheme="dark", touch=True, before=no_folders)
     status_says(page, r"0 of 12 tests pass", timeout=STARTED)
     assert not page.locator("#play-folder").is_visible()
+    more, others = page.get_by_role("button", name="More"), page.get_by_role("button", name="Save as zip")
+    expect(others).to_be_hidden()
+    more.tap()
+    expect(others).to_be_in_viewport(ratio=1)
+    more.tap()
+    expect(others).to_be_hidden()
+    assert page.locator(".play-bar").evaluate("bar => bar.scrollWidth <= bar.clientWidth")
     assert_no_sideways_scrolling(page)
     assert_accessible(page)
     assert_large_enough(page)
@@ -114,6 +128,25 @@ def test_what_the_compiler_says_is_in_sight_on_a_small_screen(
         )
 
 
+def test_on_a_small_laptop_the_results_scroll_past_a_wide_editor(page: "Page") -> None:
+    """They stand below the handout there; a text to read takes the place of both."""
+    from playwright.sync_api import expect
+
+    page.set_viewport_size({"width": 1024, "height": 600})
+    editor, results = page.locator("#play-editor"), page.locator("#play-first")
+    assert editor.evaluate("editor => editor.clientWidth") > 500
+    for title, room in (("Results", results), ("Handout", page.locator("#play-handout h1"))):
+        page.get_by_role("button", name=title, exact=True).click()
+        expect(room).to_be_in_viewport()
+        expect(editor).to_be_in_viewport(ratio=1)
+    page.locator("#play-texts").get_by_role("link").first.click()
+    expect(page.locator("#play-reading-text")).to_be_focused()
+    assert _stand_side_by_side(page, "#play-reading", "#play-source")
+    expect(page.locator("#play-reading")).to_be_in_viewport(ratio=1)
+    expect(results).to_be_hidden()
+    assert page.evaluate("document.documentElement.scrollHeight - innerHeight") <= 0
+
+
 def test_rooms_scroll_and_the_page_does_not(page: "Page") -> None:
     """On a wide screen; and what is said of a pixel stands together, however high the stage beside it is."""
     from playwright.sync_api import expect
@@ -122,6 +155,8 @@ def test_rooms_scroll_and_the_page_does_not(page: "Page") -> None:
     page.mouse.wheel(0, 3000)
     assert page.evaluate("document.documentElement.scrollHeight - innerHeight") <= 0
     assert broken_words(page, "#play-handout table") == []
+    assert_fits_all_screens(page)
+    page.set_viewport_size({"width": 1440, "height": 900})
     page.get_by_role("button", name="Look inside pixel").first.click()
     lines = page.locator("#play-inside .trees > *")
     expect(lines.last).to_contain_text("shows the direction of its eye ray", timeout=STARTED)

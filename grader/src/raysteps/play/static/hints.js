@@ -2,11 +2,20 @@
 
 import { element } from "./page-data.js";
 
-/** Words flow, and keep `code` apart; what has columns, as pseudocode has, keeps them. */
+const pieces = (text) => text.split("`").map((piece, at) => (at % 2 ? make("code", {}, piece) : piece));
+
+/** Words flow, and keep `code` apart; what has columns, as pseudocode has, keeps them, and its lines. */
 function hint(text) {
-  const pieces = text.split("`").map((piece, at) => (at % 2 ? make("code", {}, piece) : piece));
-  const hasColumns = /\S {2}|^ /m.test(text);
-  return hasColumns ? make("pre", { class: "play-hint", tabindex: 0 }, ...pieces) : make("p", {}, ...pieces);
+  if (!/\S {2}|^ /m.test(text)) {
+    return make("p", {}, ...pieces(text));
+  }
+  const pre = make("pre", { class: "play-hint", tabindex: 0 });
+  for (const line of text.split("\n")) {
+    const span = make("span", {}, ...pieces(line));
+    span.style.setProperty("--hang", line.search(/\S|$/) + 2); // where it goes on, if there is no room for it
+    pre.append(span);
+  }
+  return pre;
 }
 
 /** Shows one more, until there is none. */

@@ -108,6 +108,13 @@ class Page {
     for (const button of document.querySelectorAll(".play-rooms button")) {
       button.addEventListener("click", () => element(button.dataset.room).scrollIntoView());
     }
+    const more = element("play-more"); // of the buttons, where there is no room for all
+    const showMore = (isShown) => more.setAttribute("aria-expanded", isShown);
+    more.addEventListener("click", () => showMore(more.ariaExpanded === "false"));
+    element("play-others").addEventListener("click", () => showMore(false));
+    const head = document.querySelector(".page-head");
+    const tellHeight = () => document.documentElement.style.setProperty("--head", `${head.offsetHeight}px`);
+    new ResizeObserver(tellHeight).observe(head); // it lies over what is scrolled to
     openTexts((error) => this.tellFault(error));
     addEventListener("keydown", (event) => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
