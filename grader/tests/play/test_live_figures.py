@@ -420,6 +420,12 @@ def test_a_lamp_is_sampled_from_a_place_that_is_dragged(
     words, figure = _words(page, "lamp"), _figure(page, "lamp")
     says(words, "It waits for solid_angle_pdf.*: not written yet")
     says(_words(page, "lens"), "It waits for lens_ray: not written yet")
+    begin = "Color sampled_light(const HitRecord& hit, const Color& radiance, const LightSample& sample) {"
+    stub = f'{begin} RAYSTEPS_TODO("12-soft-light", "sampled_light"); return k_black;'
+    assert begin in solved["12-soft-light"]
+    save(page, '#include "core/unfinished.hpp"\n' + solved["12-soft-light"].replace(begin, stub))
+    says(words, r"The numbers wait for sampled_light: not written yet\.")
+    assert figure.get_by_role("slider", name="Lit place").is_visible(), "what is drawn can be dragged"
     save(page, solved["12-soft-light"])
     assert _states(project, steps[11], "1.273 · 25 / 0.8 = 39.79")
     assert _states(project, steps[11], "20 · 1 / π · 0.8 / 39.79 = 0.128")

@@ -34,6 +34,7 @@ export const LAMP = {
     turn: { label: "Turned by", min: -180, max: 180, step: 5, start: 0, unit: "°" },
     place: place("Place x", -1, 5, 0),
   },
+  onlyNumbers: ["sampled_light"],
   ask: ({ kind, x, y, radius, turn, place }) => [kind, x, y, radius, turn, place],
   views: [
     {

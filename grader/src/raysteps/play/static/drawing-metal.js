@@ -69,6 +69,7 @@ export const METAL = {
     lightX: at("Light x", -1, 1, -0.6),
     lightZ: at("Light z", 0.05, 1, 0.8),
   },
+  onlyNumbers: ["metal_brdf"],
   ask: ({ alpha, eyeX, eyeZ, lightX, lightZ }) => [alpha, eyeX, eyeZ, lightX, lightZ],
   views: [
     {

@@ -19,6 +19,7 @@ export const COSINE = {
     x: unit("u x", 0.36),
     y: unit("u y", 0.25),
   },
+  onlyNumbers: ["scatter_diffuse"],
   ask: ({ lean, x, y }) => [lean, x, y],
   views: [
     {

@@ -68,6 +68,7 @@ export const FILTER = {
     second: { label: "Second sample", min: -2, max: 2, step: 0.025, stride: 0.125, start: -0.25 },
     secondLight: { label: "Light of the second", min: 0, max: 1, step: 0.05, start: 0.3 },
   },
+  onlyNumbers: ["reconstruct", "linear_to_srgb"],
   ask: ({ filter, first, firstLight, second, secondLight }) => [filter, first, firstLight, second, secondLight],
   views: [
     {

@@ -66,6 +66,7 @@ export const WAYS = {
     eyeX: place("Eye x", -1.4, 1.4, -1.2),
     eyeZ: place("Eye z", 0.1, 1.6, 1.2),
   },
+  onlyNumbers: ["emission_weight"],
   ask: ({ alpha, radius, lampX, lampZ, eyeX, eyeZ }) => [alpha, eyeX, eyeZ, lampX, lampZ, radius],
   views: [
     {

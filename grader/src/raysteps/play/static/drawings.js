@@ -1,6 +1,7 @@
 // What the live figures draw, step by step. Each asks framework/web/figures.cpp: whatever is a step's work comes from
 // there, by the student's functions. Only what a reader sets, or what is given, is known here: these files go out to
-// students, so no formula of a step stands in them.
+// students, so no formula of a step stands in them. `onlyNumbers` are functions that a drawing does without: where they
+// are stubs, it is there all the same, and the numbers wait.
 
 import { CAMERA } from "./drawing-camera.js";
 import { GLASS } from "./drawing-glass.js";

@@ -170,14 +170,19 @@ class Figure {
     this.#say(text);
   }
 
-  /** The answer to a question with these numbers, which may have been changed since. */
-  show(values, answer) {
+  /** Of the functions that are stubs, whether what is drawn does without them all. */
+  isDrawnWithout(names) {
+    return names.every((name) => this.#description.onlyNumbers?.includes(name));
+  }
+
+  /** The answer to a question with these numbers, which may have been changed since, and what is a stub. */
+  show(values, answer, missing) {
     for (const view of this.#views) {
       view.clear();
       view.draw(view, values, answer);
     }
     this.node.dataset.state = "drawn";
-    this.#say(this.#description.says(values, answer));
+    this.#say(missing.length ? waits("The numbers wait", missing) : this.#description.says(values, answer));
   }
 
   #say(text) {
@@ -201,10 +206,15 @@ function unwritten({ stderr = "" }) {
   return [...stderr.matchAll(/: (\S+) is not written yet/g)].map(([, name]) => name);
 }
 
-/** What a program printed last, if it is an answer of what somebody wrote. */
+function waits(what, names) {
+  const listed = [names.slice(0, -1).join(", "), names.at(-1)].filter(Boolean).join(" and ");
+  return `${what} for ${listed}: not written yet.`;
+}
+
+/** What a program printed last, if it is an answer. */
 function answerOf(ran) {
   try {
-    return ran.code === 0 && !unwritten(ran).length ? JSON.parse(ran.stdout.trim().split("\n").at(-1)) : null;
+    return ran.code === 0 ? JSON.parse(ran.stdout.trim().split("\n").at(-1)) : null;
   } catch {
     return null; // it was ended before, or printed more than is kept
   }
@@ -214,8 +224,7 @@ function answerOf(ran) {
 function whyNot(ran) {
   const missing = unwritten(ran);
   if (missing.length) {
-    const names = [missing.slice(0, -1).join(", "), missing.at(-1)].filter(Boolean).join(" and ");
-    return `It waits for ${names}: not written yet.`;
+    return waits("It waits", missing);
   }
   if (ran.stopped) {
     return `Your code gave no answer within ${SECONDS} s. Is there an endless loop?`;
@@ -302,11 +311,12 @@ export class Figures {
       const { values, words } = next.question();
       const task = { module: this.#module, words: ["figure", ...words], files: {}, wanted: [] };
       const ran = await this.#runner.run(task, SECONDS);
-      const answer = answerOf(ran);
+      const missing = unwritten(ran);
+      const answer = next.isDrawnWithout(missing) ? answerOf(ran) : null;
       if (answer) {
-        next.show(values, answer);
+        next.show(values, answer, missing);
       } else if (ran.stopped !== "hand") {
-        next.tell(whyNot(ran), unwritten(ran).length > 0);
+        next.tell(whyNot(ran), missing.length > 0);
       }
     }
     this.#isAsking = false;
