@@ -258,7 +258,7 @@ def _spread_alike(one: Sequence[int], other: Sequence[int]) -> bool:
     if len(mine) != len(theirs):
         return False
     moved = float(np.abs(mine - theirs).sum()) / 2
-    return moved <= _SPREAD + _SPREAD_OF_CHANCE / math.sqrt(min(sum(one), sum(other)))
+    return moved <= _SPREAD + _SPREAD_OF_CHANCE / math.sqrt(max(min(sum(one), sum(other)), 1))
 
 
 def answer_similarity(

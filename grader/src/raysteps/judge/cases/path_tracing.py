@@ -175,7 +175,7 @@ _WRONG_PDFS = {
     "the pdf is 0": 0.0,
     "the pdf is not divided by pi": math.pi,
     "the pdf is divided by 2 pi": 0.5,
-    "the pdf is multiplied with pi": math.pi**2,
+    "the pdf is multiplied by pi": math.pi**2,
 }
 
 
@@ -518,7 +518,7 @@ def _glowing(draw: RandomSource) -> PathScript:
 
 
 _LATE = 32  # bounces: who cuts paths off finds nothing
-VERY_LATE = 104  # of two hundred paths one comes so far
+VERY_LATE = 80  # of fifty paths one comes so far: enough of the first two thousand estimates find light
 
 
 def _walls(draw: RandomSource, shares: Sequence[tuple[float, float]]) -> tuple[PathHit, ...]:
