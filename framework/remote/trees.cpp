@@ -107,6 +107,7 @@ constexpr Bounds k_searched_at_home{.levels = 64, .children = 8};
 // Whether the reference can search a tree that comes from a box. A search follows every number in a tree; a tree of the
 // reference's own never leads out.
 
+/// Of a tree that a step here has built; those of a box are refused by the same bounds while they are read.
 bool is_searchable(const Node& node, int level = 1) {
     const auto searchable = [level](const Node& child) { return is_searchable(child, level + 1); };
     return level <= k_searched_at_home.levels && node.children.size() <= k_searched_at_home.children &&

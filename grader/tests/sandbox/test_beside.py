@@ -2,16 +2,20 @@
 
 import os
 import socket
+import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from sandboxes import any_sandbox, hostile, sandbox, sandbox_named, secret
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.project import here
+from raysteps.sandbox import supervised
+from raysteps.sandbox.keepers import start_keeper
 from raysteps.sandbox.lockdown import landlock_version, syscall_filter
-from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
+from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, StartedProcess, Task, TaskResult, Word
 from raysteps.sandbox.users import can_lend_users
 
 __all__ = ["any_sandbox", "hostile", "sandbox", "secret"]  # pytest finds fixtures by name
@@ -69,6 +73,16 @@ def test_a_program_that_is_none_is_the_kits_fault(any_sandbox: Sandbox, secret: 
         _ask(any_sandbox, secret)
 
 
+def test_a_keeper_that_cannot_begin_is_no_crash_of_the_step(hostile: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def start(*words: Any, stderr: int | None = None, **files: Any) -> StartedProcess:
+        of_the_trusted = stderr is not None  # whose words go to a file
+        return subprocess.Popen(["false"]) if of_the_trusted else start_keeper(*words, **files)
+
+    monkeypatch.setattr(supervised, "start_keeper", start)
+    with pytest.raises(GraderFault, match="cannot be started"):
+        _ask(sandbox_named("fallback"), hostile, "echo")
+
+
 def test_it_uses_time_that_is_counted(any_sandbox: Sandbox, hostile: Path) -> None:
     assert _ask(any_sandbox, hostile, "spin", "1", "0.5").cpu_seconds >= 0.5
 
@@ -119,7 +133,12 @@ def test_it_reaches_nobody_over_the_network(sandbox: Sandbox, hostile: Path) -> 
 
 @pytest.mark.parametrize("name", ["bubblewrap", "bubblewrap as root"])
 def test_it_sees_no_other_process(hostile: Path, name: str) -> None:
-    assert _ask(sandbox_named(name), hostile, "kill", str(os.getppid())).outcome.code == 1
+    with subprocess.Popen(["sleep", "600"]) as another:
+        try:
+            assert _ask(sandbox_named(name), hostile, "kill", str(another.pid)).outcome.code == 1
+            assert another.poll() is None
+        finally:
+            another.kill()
 
 
 def test_as_root_it_is_a_user_of_its_own(sandbox: Sandbox, hostile: Path) -> None:

@@ -138,7 +138,7 @@ def _wait(process: StartedProcess, seconds: float) -> tuple[int, float, bool]:
 
 @dataclass(frozen=True)
 class Files:
-    """What the trusted program has open, and nothing else."""
+    """What the trusted program has open besides its outputs."""
 
     stdin: int
     stdout: int

@@ -143,9 +143,11 @@ class SupervisedSandbox:
         finally:
             os.close(status_end)
 
-        def exit_code(_: int) -> int | None:
+        def exit_code(ended: int) -> int | None:
             said = os.read(status, 64) if readable(status, 0) else b""
-            return (int(said) if said.lstrip(b"-").isdigit() else None) if said else -signal.SIGKILL
+            if not said:
+                return -signal.SIGKILL if ended == -signal.SIGKILL else None
+            return int(said) if said.lstrip(b"-").isdigit() else None
 
         return Trusted(keeper, exit_code, inside.outputs)
 
