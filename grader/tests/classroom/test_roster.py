@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from raysteps.classroom.entries import list_entries
 from raysteps.classroom.roster import Student, match, read_roster
 from raysteps.common.errors import UsageError
 
@@ -185,3 +186,12 @@ def test_signs_that_nobody_sees_make_no_other_student(tmp_path: Path) -> None:
     roster.write_text('id,name,submission\nann\u200b,"Ann\n\u202eLee",ann\u202e.zip\n', encoding="utf-8")
     (student,) = read_roster(roster)
     assert (student.id, student.name, student.submission) == ("ann", "Ann Lee", "ann⟨U+202E⟩.zip")
+
+
+@pytest.mark.parametrize("name", ["علی\u200cرضا رضایی", "क्\u200dष Rao", "Ann\u00ad Lee"])  # noqa: RUF001
+def test_signs_of_its_own_spelling_part_no_name_from_its_entry(tmp_path: Path, name: str) -> None:
+    students = read_roster(_write(tmp_path, f"id,name\n7,{name}\n8,Bob Day\n"))
+    folder = tmp_path / "class" / f"{name}_123_assignsubmission_file"
+    folder.mkdir(parents=True)
+    entries = [entry.label for entry in list_entries(folder.parent, []).entries]
+    assert match(entries, students).pairs == [(0, 0)]

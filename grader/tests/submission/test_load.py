@@ -14,6 +14,7 @@ from typing import Literal
 
 import pytest
 
+from raysteps.classroom.entries import load_entry
 from raysteps.common.errors import UsageError
 from raysteps.common.process import run
 from raysteps.course.manifest import Step
@@ -264,6 +265,7 @@ def test_one_archive_in_a_folder_is_the_submission(tmp_path: Path, steps: list[S
     folder.mkdir()
     _zip(folder / "homework.zip", {"steps/02-intersection/intersection.cpp": b"int x;"})
     (folder / "readme.txt").write_text("Here it is.")
+    (folder / "._homework.zip").write_bytes(b"from macOS")
     submission = load_submission(folder, steps)
     assert (submission.name, submission.sources) == (folder.name, {"02-intersection": b"int x;"})
     (folder / "intersection.cpp").write_bytes(b"int y;")  # what lies open counts
@@ -275,6 +277,23 @@ def test_of_two_archives_in_a_folder_none_is_chosen(tmp_path: Path, steps: list[
         _zip(tmp_path / name, {"intersection.cpp": b"int x;"})
     with pytest.raises(UsageError, match="2 archives, of which none is taken"):
         load_submission(tmp_path, steps)
+
+
+def test_an_archive_without_a_step_is_named(tmp_path: Path, steps: list[Step]) -> None:
+    _zip(tmp_path / "essay.zip", {"essay.txt": b"Rays."})
+    with pytest.raises(UsageError, match=r"holds no step, nor does essay\.zip in it"):
+        load_submission(tmp_path, steps)
+    (tmp_path / "essay.zip").rename(tmp_path / "essay.rar")
+    (tmp_path / "essay.rar").write_bytes(b"Rar!\x1a\x07")
+    with pytest.raises(UsageError, match=r"essay\.rar: is a RAR archive"):
+        load_submission(tmp_path, steps)
+
+
+def test_where_a_class_lies_is_not_told(tmp_path: Path, steps: list[Step]) -> None:
+    (tmp_path / "secret" / "anna").mkdir(parents=True)
+    (tmp_path / "secret" / "anna" / "homework.zip").write_bytes(b"PK\3\4 but no more")
+    notes = load_entry("anna", tmp_path / "secret" / "anna", steps).submission.notes
+    assert all("homework.zip: cannot be read" in note and "secret" not in note for note in notes.values())
 
 
 def test_an_archive_that_is_a_link_is_not_followed(tmp_path: Path, steps: list[Step]) -> None:

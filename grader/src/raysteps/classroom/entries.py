@@ -15,6 +15,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import one_line, printable
 from raysteps.course.manifest import Step
+from raysteps.submission.entries import is_out_of_sight
 from raysteps.submission.load import ARCHIVE_ENDINGS, Submission, load_submission
 
 _MAX_FILES = 20_000
@@ -109,7 +110,7 @@ def _file_times(folder: Path) -> Iterator[float]:
             if seen > _MAX_FILES:
                 return
             status = child.lstat()
-            if child.name.startswith(".") or (stat.S_ISDIR(status.st_mode) and child.name == "build"):
+            if child.name.startswith(".") or (stat.S_ISDIR(status.st_mode) and is_out_of_sight((child.name,))):
                 continue
             if stat.S_ISREG(status.st_mode):
                 yield status.st_mtime
@@ -158,7 +159,7 @@ def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
                 raise GraderFault(f"the submission cannot be read: {error}") from error
             cause = cause.__cause__
         # Where the submission lies is nobody's business but the instructor's.
-        reason = printable(str(error).removeprefix(f"{path}: "))
+        reason = printable(str(error).removeprefix(f"{path}: ").replace(f"{path}{os.sep}", ""))
         notes = {step.id: f"Nothing was taken from this submission: {reason}" for step in steps}
         return LoadedEntry(Submission(name, {}, notes), unreadable=True)
     except GraderFault:

@@ -28,7 +28,6 @@ _HEADERS = {
     "submitted_at": ("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
 }
 _MAX_BYTES = 16 << 20
-_LINE_ENDS = re.compile(r"[\n\t]")
 
 
 @dataclass(frozen=True)
@@ -109,7 +108,7 @@ def _rows(text: str, path: Path) -> Iterable[tuple[int, list[str]]]:
 
 def _cell(field: str, text: str) -> str:
     """A submission is called what entries are; everything else is what people see, and what they would type."""
-    return one_line(text).strip() if field == "submission" else _LINE_ENDS.sub(" ", seen(text)).strip()
+    return one_line(text if field == "submission" else seen(text)).strip()
 
 
 def read_roster(path: Path) -> list[Student]:
@@ -118,7 +117,7 @@ def read_roster(path: Path) -> list[Student]:
     _, header = next(rows, (1, [""]))
     columns = _columns([_cell("", cell) for cell in header], path)
     students: list[Student] = []
-    seen: dict[tuple[str, str], int] = {}
+    lines: dict[tuple[str, str], int] = {}
     for line, row in rows:
         cells = {field: _cell(field, row[column]) if column < len(row) else "" for field, column in columns.items()}
         name = cells.get("name") or f"{cells.get('first', '')} {cells.get('last', '')}".strip()
@@ -136,8 +135,8 @@ def read_roster(path: Path) -> list[Student]:
         # Two students of one name need something else that tells them apart.
         alone = "" if student.id or student.email else student.name
         for kind, value in (("id", student.id), ("email", student.email), ("name", alone)):
-            if value and seen.setdefault((kind, folded(value)), line) != line:
-                other = seen[kind, folded(value)]
+            if value and lines.setdefault((kind, folded(value)), line) != line:
+                other = lines[kind, folded(value)]
                 raise UsageError(f"{path}:{line}: the {kind} {value!r} stands in line {other}, too")
         students.append(student)
     if not students:
@@ -150,6 +149,7 @@ def read_roster(path: Path) -> list[Student]:
 # a file name that a student chose.
 
 _ACCENTS = re.compile("[\u0300-\u036f]")
+_NAMED = re.compile(r"⟨U\+[0-9A-F]{4,6}⟩")  # a sign that nobody sees, as an entry is shown
 
 
 @dataclass
@@ -162,12 +162,12 @@ class Matches:
 
 
 def _words(text: str) -> str:
-    return re.sub(r"[\W_]+", "_", folded(text)).strip("_")
+    return re.sub(r"[\W_]+", "_", folded(seen(_NAMED.sub("", text)))).strip("_")
 
 
 def _plain(text: str) -> str:
     """Without accents, too: platforms and students leave them out."""
-    return _words(_ACCENTS.sub("", unicodedata.normalize("NFKD", text)))
+    return _words(_ACCENTS.sub("", unicodedata.normalize("NFKD", _NAMED.sub("", text))))
 
 
 def _squeezed(name: str) -> set[str]:

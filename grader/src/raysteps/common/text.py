@@ -8,8 +8,9 @@ from functools import cache
 
 # Signs that turn the writing direction, that take no room, or that are halves of surrogates.
 _UNSEEN = re.compile(
-    "[\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\u3164\ufeff\uffa0"
-    "\ufff9-\ufffb\U000e0000-\U000e0fff\ud800-\udfff]"
+    "[\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\u3164\ufe00-\ufe0f"
+    "\ufeff\uffa0\ufff0-\ufffb\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff\ud800-\udfff]"
+    "|(?<![\u0600-\u1fff])[\u200c\u200d]"  # which belong to the spelling in Persian and Hindi
 )
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 _BLANKS = str.maketrans("\n\t", "  ")
@@ -21,7 +22,7 @@ def _bare(text: str) -> str:
 
 def printable(text: str) -> str:
     """Without control characters, so that a program's output cannot steer a terminal. Signs that nobody sees are named:
-    two texts that look alike are alike."""
+    none of them makes another text of the same looks."""
     return _UNSEEN.sub(lambda found: f"⟨U+{ord(found[0]):04X}⟩", _bare(text))
 
 

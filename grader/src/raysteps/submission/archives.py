@@ -185,6 +185,7 @@ _FOREIGN = {
     b"7z\xbc\xaf\x27\x1c": "a 7z archive",
     b"\x28\xb5\x2f\xfd": "compressed with zstd",
 }
+FOREIGN_ENDINGS = (".rar", ".7z", ".zst")
 
 
 def _open_no_link(path: str, flags: int) -> int:

@@ -10,7 +10,7 @@ from raysteps.common.documents import Text
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import did_you_mean, join_and, printable
 from raysteps.course.manifest import Step
-from raysteps.submission.archives import DAMAGED, archive_entries
+from raysteps.submission.archives import DAMAGED, FOREIGN_ENDINGS, archive_entries
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import MAX_ABOVE, Entry, RejectedFile, shown
 from raysteps.submission.folders import FolderReader, PlainFolderReader
@@ -248,8 +248,10 @@ def _like(path: Path) -> str:
     """Words that name what there is instead."""
     try:
         names = [child.name for child in path.parent.iterdir()]
-    except OSError:
+    except FileNotFoundError:
         return f"; there is no folder {path.parent} either"
+    except OSError:  # what may not be listed, or is no folder
+        return ""
     return did_you_mean(path.name, names)
 
 
@@ -277,7 +279,9 @@ def _packed_in(folder: Path) -> list[Path]:
         return sorted(
             Path(child)
             for child in children
-            if child.name.lower().endswith(ARCHIVE_ENDINGS) and child.is_file(follow_symlinks=False)
+            if child.name.lower().endswith((*ARCHIVE_ENDINGS, *FOREIGN_ENDINGS))
+            and not child.name.startswith(".")  # such as what macOS writes beside each file
+            and child.is_file(follow_symlinks=False)
         )
 
 
@@ -292,7 +296,9 @@ def load_submission(path: Path, steps: list[Step]) -> Submission:
         inner = _load(packed[0], steps, may_be_link=False)
         if inner.sources or inner.notes:
             return replace(inner, name=submission.name)
-    more = f", but {len(packed)} archives, of which none is taken" if len(packed) > 1 else ""
+        more = f", nor does {printable(packed[0].name)} in it"
+    else:
+        more = f", but {len(packed)} archives, of which none is taken" if packed else ""
     raise UsageError(f"{path}: holds no step{more}; expected files like steps/{steps[0].path.as_posix()}")
 
 
