@@ -47,7 +47,8 @@ struct Within {
     double margin;
 
     friend bool operator==(double actual, const Within& within) {
-        return actual == within.expected || std::abs(actual - within.expected) <= within.margin;
+        return actual == within.expected ||
+               (std::isfinite(within.expected) && std::abs(actual - within.expected) <= within.margin);
     }
 };
 

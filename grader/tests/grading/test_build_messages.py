@@ -62,8 +62,10 @@ _WRONG = {
     "void f(const glm::vec3& v) { nope(v); }": "",
     "glm::vec3 f(const Hit& v) { return v * v; }": "",
     "void f() { g() }": "",
+    "int f(std::vector<glm::vec3> v) { return v * 2; }": "",
+    "float f(float a, float b, float c) { return std::max(a, b, c); }": "for three write",
 }
-_BEGIN = "#include <algorithm>\n#include <glm/glm.hpp>\n#include <optional>\n"
+_BEGIN = "#include <algorithm>\n#include <glm/glm.hpp>\n#include <optional>\n#include <vector>\n"
 _BEGIN += "struct Hit { float distance; float twice() const; };\n"
 _COMPILERS = [name for name in ("g++", "clang++", "clang++-14") if shutil.which(name)]
 
@@ -75,6 +77,8 @@ def test_beginners_are_told_in_other_words(shadows: Step, tmp_path: Path, compil
     source.write_text(f"{_BEGIN}{wrong}\n")
     words: list[str | Path] = [compiler, "-std=c++20", "-fsyntax-only", "-fno-diagnostics-color", source]
     output = run(words, seconds=60).stderr
+    if "'glm/glm.hpp' file not found" in output or "glm/glm.hpp: No such file" in output:
+        pytest.skip("glm is not where this compiler looks")
     message = compile_message(shadows, source.read_text(), ran(output))
     told = {words for _, words in IN_OTHER_WORDS if words in message.splitlines()}
     assert [_WRONG[wrong] in one for one in told] == ([True] if _WRONG[wrong] else [])

@@ -233,9 +233,9 @@ def _run_mine(program: Path, args: list[str]) -> int:
     """After a while it says what a function that never ends looks like."""
     words = (
         "your program is still drawing. If nothing moves, one of your functions may never end: Ctrl-C stops it, and "
-        f"{own_command()} check names the line where it was"
+        f"{own_command()} check may name the line"
     )
-    telling = threading.Timer(_LONG, _say, [words])
+    telling = threading.Timer(_LONG, _say if "--quiet" not in args else lambda words: None, [words])
     telling.daemon = True
     telling.start()
     try:

@@ -15,6 +15,11 @@ _ERROR = re.compile(
     r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",
     re.M,
 )
+_CAUSE = re.compile(  # of an error in a header
+    r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}):"
+    r"(?:   required from here| note: in instantiation of )",
+    re.M,
+)
 _MICROSOFT_ERROR = re.compile(
     r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M
 )
@@ -46,6 +51,12 @@ def _errors(output: str) -> list[_Error]:
     ]
 
 
+def _caused_by(output: str, file: str, error: _Error) -> list[_Error]:
+    """An error in a header, such as in std::max, at the line of the file that asked for it; none where none did."""
+    found = (one for one in _CAUSE.finditer(output) if re.split(r"[/\\]", one["path"])[-1] == file)
+    return [_Error(file, int(one["line"]), int(one["column"]), error.text) for one in found][:1]
+
+
 def errors_in(output: str, file: str) -> bool:
     """Whether the compiler complains about the file of this name."""
     return any(error.file == file for error in _errors(output))
@@ -74,8 +85,8 @@ def _more(errors: list[_Error]) -> str:
 # JavaScript reads these patterns, too.
 IN_OTHER_WORDS = (
     (
-        r"(?:operand types are|invalid operands|C267[6-9]:)"
-        r"(?=.*vec\W?\d)(?=.*'(?:const )?(?:unsigned |long )*(?:int|double|long)\b)",
+        r"(?:'operator[-+*/]=?' \(operand types are|invalid operands|C267[6-9]: binary '[-+*/])"
+        r"(?=.*'(?:const )?(?:glm::)?vec\W?\d)(?=.*'(?:const )?(?:unsigned |long )*(?:int|double|long)\b)",
         "A vector of glm takes floats only: write 2.0F, not 2 or 2.0, or float(x).",
     ),
     (
@@ -83,13 +94,17 @@ IN_OTHER_WORDS = (
         "All its arguments must be of one type: beside a float 0.0F, not 0 or 0.0.",
     ),
     (
-        r"'(?:const )?(?:class )?std::optional<.*has no member"
+        r"'__comp' cannot be used as a function|called object type '\w+' is not a function|C2064:",
+        "std::max and std::min take two numbers; for three write std::max({a, b, c}).",
+    ),
+    (
+        r"'(?:const )?(?:class |struct )?std::optional<.*has no member"
         r"|(?:no member named .* in|is not a member of) '(?:const )?std::optional<",
         "A std::optional may hold nothing: ask has_value() first, then write -> in place of the dot.",
     ),
     (
         r"no declaration matches|out-of-line definition of .* does not match|C2511:",
-        "It must stand here as the header declares it: the same arguments, with const and & where they are there.",
+        "It must stand here as the header declares it: the same arguments, with const and & where it has them.",
     ),
     (
         r"function.definition is not allowed here|expected '}'(?: at end of input)?$|C1075:|C2601:",
@@ -97,7 +112,7 @@ IN_OTHER_WORDS = (
     ),
     (
         r"discards qualifiers|read-only|cannot assign to .* const|C2166:|C3490:",
-        "What is const stays as it is: change a copy of it.",
+        "What is const stays as it is: change a copy, or mark a function that changes nothing as const.",
     ),
 )
 
@@ -118,6 +133,7 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     output = printable((ran.outcome.stderr or ran.outcome.stdout)[:_MAX_READ])
     errors = _errors(output)
     own = [error for error in errors if error.file == step.file]
+    own = own or [error for first in errors[:1] for error in _caused_by(output, step.file, first)]
     for error in own or errors:
         place = f"{error.file}:{error.line}" + (f":{error.column}" if error.column else "")
         said = shorten(error.text, 300)

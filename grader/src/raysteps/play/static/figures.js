@@ -221,8 +221,7 @@ function answerOf(ran) {
 }
 
 /** Why there is no answer. */
-function whyNot(ran) {
-  const missing = unwritten(ran);
+function whyNot(ran, missing) {
   if (missing.length) {
     return waits("It waits", missing);
   }
@@ -312,11 +311,12 @@ export class Figures {
       const task = { module: this.#module, words: ["figure", ...words], files: {}, wanted: [] };
       const ran = await this.#runner.run(task, SECONDS);
       const missing = unwritten(ran);
-      const answer = next.isDrawnWithout(missing) ? answerOf(ran) : null;
+      const waited = next.isDrawnWithout(missing) ? [] : missing;
+      const answer = waited.length ? null : answerOf(ran);
       if (answer) {
         next.show(values, answer, missing);
       } else if (ran.stopped !== "hand") {
-        next.tell(whyNot(ran), missing.length > 0);
+        next.tell(whyNot(ran, waited), waited.length > 0);
       }
     }
     this.#isAsking = false;

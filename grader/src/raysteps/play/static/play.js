@@ -110,8 +110,15 @@ class Page {
     }
     const more = element("play-more"); // of the buttons, where there is no room for all
     const showMore = (isShown) => more.setAttribute("aria-expanded", isShown);
-    more.addEventListener("click", () => showMore(more.ariaExpanded === "false"));
-    element("play-others").addEventListener("click", () => showMore(false));
+    const showLess = () => {
+      if (more.checkVisibility()) {
+        more.focus(); // what has the focus is about to be hidden
+      }
+      showMore(false);
+    };
+    more.addEventListener("click", () => showMore(more.getAttribute("aria-expanded") === "false"));
+    element("play-others").addEventListener("click", showLess);
+    element("play-others").addEventListener("keydown", (event) => event.key === "Escape" && showLess());
     const head = document.querySelector(".page-head");
     const tellHeight = () => document.documentElement.style.setProperty("--head", `${head.offsetHeight}px`);
     new ResizeObserver(tellHeight).observe(head); // it lies over what is scrolled to

@@ -3,6 +3,8 @@
 import { data, element } from "./page-data.js";
 import { linkerWords } from "./report.js";
 
+const MOST_LETTERS = 300; // that are looked through
+
 /** What the compiler says: `{file, line, column, severity, message}`, notes behind what they belong to. */
 function problemsIn(text) {
   const found = text.matchAll(/^(.+?):(\d+):(\d+): (?:fatal )?(error|warning|note): (.*)$/gm);
@@ -17,8 +19,9 @@ function problemsIn(text) {
 
 /** What an error means that many meet first. */
 function otherWords({ severity, message }) {
-  const known = data.words.inOtherWords.find(([pattern]) => severity === "error" && new RegExp(pattern).test(message));
-  return known ? ` ${known[1]}` : "";
+  const start = message.slice(0, MOST_LETTERS);
+  const known = data.words.inOtherWords.find(([pattern]) => severity === "error" && new RegExp(pattern).test(start));
+  return known ? [make("strong", {}, ` ${known[1]}`)] : [];
 }
 
 /** `goTo` leads to its line; none where another file has it. */
@@ -29,13 +32,7 @@ function problem(found, goTo) {
   if (goTo) {
     place.addEventListener("click", () => goTo(line));
   }
-  return make(
-    "p",
-    { class: `play-problem play-${severity}` },
-    place,
-    ` ${severity}: ${message}`,
-    make("strong", {}, otherWords(found)),
-  );
+  return make("p", { class: `play-problem play-${severity}` }, place, ` ${severity}: ${message}`, ...otherWords(found));
 }
 
 /** Of a build of the step that is open. */
