@@ -99,6 +99,12 @@ def test_its_memory_is_bounded(any_sandbox: Sandbox, hostile: Path) -> None:
     assert 0 < soft <= hard <= 4096 << 20
 
 
+def test_it_has_its_words_and_the_wire_open(sandbox: Sandbox, hostile: Path) -> None:
+    (numbers,) = _said(sandbox, hostile, "files")
+    stdin, stdout, stderr, *wire = map(int, numbers.split())
+    assert (stdin, stdout, stderr, len(wire)) == (0, 1, 2, 2)
+
+
 def test_its_environment_is_the_wire(any_sandbox: Sandbox, hostile: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TOKEN", "secret")
     names = {line.partition("=")[0] for line in _said(any_sandbox, hostile, "environment")}
