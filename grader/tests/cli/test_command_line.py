@@ -158,10 +158,21 @@ def test_several_submissions_in_one_folder_are_no_submission(
         (tmp_path / name / "steps" / "01-camera-rays" / "camera_rays.cpp").write_text("int a;")
     assert main(["grade", str(tmp_path)]) == 2
     assert capsys.readouterr().err == (
-        f"raysteps: {tmp_path}: holds several submissions: ann and bob jones. "
+        f"raysteps: {tmp_path}: holds several submissions, among them ann and bob jones. "
         f"Grade one of them with `./raysteps grade {tmp_path / 'ann'}`, "
         f"or all with `./raysteps grade-class {tmp_path} --out grades`\n"
     )
+
+
+def test_one_submission_is_no_class(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    ann = tmp_path / "ann"
+    (ann / "steps" / "01-camera-rays").mkdir(parents=True)
+    (ann / "steps" / "01-camera-rays" / "camera_rays.cpp").write_text("int a;")
+    assert main(["grade-class", str(ann), "--out", str(tmp_path / "out")]) == 2
+    assert f"{ann}: is one submission. Grade it with `./raysteps grade {ann}`" in capsys.readouterr().err
+    assert main(["grade-class", str(tmp_path / "an"), "--out", str(tmp_path / "out")]) == 2
+    assert "one entry per submission; did you mean ann?" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_the_beginning_of_an_option_is_known(capsys: pytest.CaptureFixture[str]) -> None:

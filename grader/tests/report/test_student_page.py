@@ -170,6 +170,18 @@ def test_without_a_diagnosis_it_shows_what_is_wrong_first(steps: list[Step], tmp
     assert "the smallest input" in todo()
 
 
+def test_lines_of_a_source_keep_their_columns(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:
+    document = _mixed(steps, tmp_path)
+    result = next(step for step in document.steps if step.status == "partial")
+    code = "   25 | return 2 * v;\n      |          ^"
+    result.diagnoses, result.messages = [], [f"It does not build: a.cpp:25:10: no match\n{code}\nWrite 2.0F."]
+    page = open_page(write_student_page(document, tmp_path, steps), width=360)
+    for place in (page.get_by_role("region", name="Next thing to do"), page.locator(f"#step-{result.id[:2]}")):
+        assert place.locator("pre", has_text="return").inner_text() == code
+        assert place.locator("p.said", has_text="Write").inner_text() == "Write 2.0F."
+    assert_no_sideways_scrolling(page)
+
+
 def test_its_pictures_are_compared_and_a_pixel_has_its_command(
     open_page: OpenPage, steps: list[Step], tmp_path: Path
 ) -> None:

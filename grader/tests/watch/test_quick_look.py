@@ -15,6 +15,7 @@ from rich.console import Console
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import make_stub
+from raysteps.images.compare import GROSS, read_png
 from raysteps.results.model import StepResult, TestResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Task, TaskResult
@@ -51,6 +52,22 @@ def test_a_right_step_is_told_bit_by_bit(kit: BuiltKit, step: Step, solved: Sour
         assert image.passed
         assert image.mine
         assert (tmp_path / image.mine).is_file()
+
+
+@pytest.mark.parametrize("own", [True, False])
+def test_only_a_grade_keeps_less_of_a_grossly_wrong_picture(
+    kit: BuiltKit, steps: list[Step], solved: Sources, tmp_path: Path, own: bool
+) -> None:
+    """Coarse blocks would be looked for in the own code."""
+    step = next(step for step in steps if step.number == "01")
+    turned = solved[step.id].replace("return frame;", "frame.right = -frame.right;\n    return frame;")
+    assert turned != solved[step.id]
+    result, _ = _look(kit.in_one_process() if own else kit, step, turned, tmp_path)
+    wrong = next(image.mine for image in result.images if (image.wrong_share or 0) > GROSS)
+    assert wrong is not None
+    mine = read_png(tmp_path / wrong)
+    blocks = mine[::2, ::2].repeat(2, axis=0).repeat(2, axis=1)[: len(mine), : len(mine[0])]
+    assert (mine == blocks).all() != own
 
 
 class _Counting(LimitsOnly):

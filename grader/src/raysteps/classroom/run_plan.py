@@ -17,11 +17,13 @@ from raysteps.classroom.late_policy import late_policy_text, parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster
 from raysteps.common.documents import Amount
 from raysteps.common.errors import UsageError, reason
+from raysteps.common.platform import own_command, quote_command
 from raysteps.common.text import count
 from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import Course
 from raysteps.results.model import Feedback, Settings
+from raysteps.submission.load import is_submission, like
 
 # What was asked for.
 
@@ -59,8 +61,8 @@ def _inside(path: Path, folder: Path) -> bool:
 def check_places(folder: Path, out: Path, *, resume: bool) -> None:
     """Results must not come to lie among the submissions."""
     if not folder.is_dir():
-        found = "is no folder" if folder.exists() else "is not there"
-        raise UsageError(f"{folder}: {found}; expected a folder with one entry per submission")
+        found, meant = ("is no folder", "") if folder.exists() else ("is not there", like(folder))
+        raise UsageError(f"{folder}: {found}; expected a folder with one entry per submission{meant}")
     if _inside(out, folder):
         raise UsageError(f"--out {out}: lies in the folder of the submissions; name another folder")
     if _inside(folder, out / "submissions"):
@@ -252,6 +254,9 @@ def make_plan(project: Project, options: ClassOptions, given: RunInputs | None =
     """Everything that can be wrong with the inputs is found here. `given`: what was read already."""
     check_places(options.folder, options.out, resume=options.resume)
     steps = read_steps(project)
+    if is_submission(options.folder, steps):
+        one = f"{own_command()} {quote_command(['grade', str(options.folder)])}"
+        raise UsageError(f"{options.folder}: is one submission. Grade it with `{one}`, or name the folder around it")
     chosen = chosen_steps(project, options.only)
     given = read_run_inputs(options) if given is None else given
     listing = list_entries(options.folder, given.files)

@@ -85,7 +85,7 @@ def _refuse_a_class(project: Project, path: Path) -> None:
         one = f"{own_command()} {quote_command(['grade', str(path / names[0])])}"
         all_ = f"{own_command()} {quote_command(['grade-class', str(path), '--out', 'grades'])}"
         raise UsageError(
-            f"{path}: holds several submissions: {join_and([*names[:_NAMED], *more])}. "
+            f"{path}: holds several submissions, among them {join_and([*names[:_NAMED], *more])}. "
             f"Grade one of them with `{one}`, or all with `{all_}`"
         )
 

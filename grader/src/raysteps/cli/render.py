@@ -233,7 +233,7 @@ def _run_mine(program: Path, args: list[str]) -> int:
     """After a while it says what a function that never ends looks like."""
     words = (
         "your program is still drawing. If nothing moves, one of your functions may never end: Ctrl-C stops it, and "
-        f"{own_command()} check may name the line"
+        f"{own_command()} check with the number of its step may name the line"
     )
     telling = threading.Timer(_LONG, _say if "--quiet" not in args else lambda words: None, [words])
     telling.daemon = True

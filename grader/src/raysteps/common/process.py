@@ -127,6 +127,7 @@ _MEANINGS = {
     "SIGSEGV": "memory that is not its own, or a recursion without an end",
     "SIGBUS": "memory that is not there, as behind the end of a list",
     "SIGFPE": "a whole number was divided by 0",
+    "SIGILL": "a whole number was divided by 0, or a function ended without a return",
     "SIGABRT": "an exception that nobody caught, or an assertion that does not hold",
 }
 

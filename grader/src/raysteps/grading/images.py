@@ -114,6 +114,12 @@ def _part_spared(share: float | None, most: float | None) -> float:
     return min(1.0, max(0.0, 1 - share) / (1 - most)) if share and most < 1 else 0.0
 
 
+def may_carry_data(kit: BuiltKit) -> bool:
+    """Whether a picture could bring something out of a sandbox: of one's own steps it cannot, and in a students' kit
+    there is nothing to bring."""
+    return kit.boxed and kit.has_reference
+
+
 def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
@@ -152,9 +158,9 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
             pixels_pass=verdict.passed,
         )
     if rendered.pixels.shape == reference.shape:
-        # In a students' kit there is nothing that a picture could carry out.
-        open_to_all = noisy or not gallery.kit.has_reference
-        mine = rendered.pixels if open_to_all else shown(rendered.pixels, reference, result.wrong_share)
+        mine = rendered.pixels
+        if not noisy and may_carry_data(gallery.kit):
+            mine = shown(mine, reference, result.wrong_share)
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(mine, gallery.out / result.mine)
         result.difference = (folder / f"{case.name}-difference.png").as_posix()

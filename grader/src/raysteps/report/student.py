@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -255,6 +256,15 @@ def diagnosis_view(diagnosis: Diagnosis) -> dict[str, object]:
     }
 
 
+_CODE = re.compile(r" +\d* +\| ")  # as compile_message begins lines of a source
+
+
+def _blocks(message: str) -> list[tuple[bool, str]]:
+    """Its sentences, and its lines of code, which keep their columns."""
+    lines = groupby(message.splitlines(), lambda line: _CODE.match(line) is not None)
+    return [(is_code, "\n".join(block)) for is_code, block in lines]
+
+
 def _test(test: TestResult, once: SaidOnce) -> dict[str, object]:
     words = ("name", "expression", "expanded", "location")
     texts = {word: clean(getattr(test, word), _TEXT) for word in words}
@@ -410,7 +420,7 @@ def step_view(
         "bonus": result.bonus,
         "parts": parts,
         "rest": rest_of(result, parts),
-        "messages": messages,
+        "messages": [_blocks(message) for message in messages],
         "diagnoses": [diagnosis_view(diagnosis) for diagnosis in result.diagnoses],
         "tests": tests,
         "hidden": [_hidden(item, once, has_reference) for item in result.hidden],

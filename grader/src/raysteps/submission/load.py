@@ -235,7 +235,7 @@ def _collect(path: Path, collector: _Collector, *, may_be_link: bool) -> None:
         collector.take(reader.entries())
         collector.cannot_look_into(reader.closed)
     elif not path.is_file():
-        raise UsageError(f"{path}: is not there; expected a submission: a folder, zip or tar{_like(path)}")
+        raise UsageError(f"{path}: is not there; expected a submission: a folder, zip or tar{like(path)}")
     else:
         collector.take(archive_entries(path, may_be_link=may_be_link))
 
@@ -244,7 +244,7 @@ def _reader(folder: Path) -> FolderReader | PlainFolderReader:
     return FolderReader(folder) if _OPENS_BELOW else PlainFolderReader(folder)
 
 
-def _like(path: Path) -> str:
+def like(path: Path) -> str:
     """Words that name what there is instead."""
     try:
         names = [child.name for child in path.parent.iterdir()]
@@ -266,6 +266,11 @@ def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
         return []
     highest = [_highest(found) for found in homes.values()]  # what lies further down is somebody's old copy
     return sorted({"/".join(home) for found in highest if len(found) > 1 for home in found})
+
+
+def is_submission(path: Path, steps: list[Step]) -> bool:
+    """Whether a folder holds a step itself, in a folder of the step's name."""
+    return any((path / above / step.path).is_file() for step in steps for above in ("steps", ""))
 
 
 def _highest(homes: set[tuple[str, ...]]) -> list[tuple[str, ...]]:
