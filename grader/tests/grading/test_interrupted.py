@@ -6,13 +6,14 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from threading import Event
+from threading import Event, get_ident
 
 import pytest
 from conftest import Sources
 from watch_fakes import is_running, wait_for
 
 from raysteps.common.process import Outcome
+from raysteps.grading.step import answers_of
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.monitor import descendants
 from raysteps.sandbox.task import AccountingSandbox, Task, TaskResult
@@ -82,6 +83,26 @@ def test_what_hangs_is_ended(kit: BuiltKit, solved: Sources, tmp_path: Path, whi
     assert said.rstrip().endswith(b"KeyboardInterrupt"), said.decode()
     assert list(temporary.iterdir()) == []
     wait_for(lambda: not any(map(is_running, started)))
+
+
+def test_a_signal_that_another_thread_takes_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever waits is not woken by it."""
+    heard = Event()
+
+    def ask(_: int) -> bool:
+        signal.pthread_kill(get_ident(), signal.SIGINT)
+        return heard.wait(_PATIENCE)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # where the tests run in the background
+    try:
+        with ThreadPoolExecutor(1) as pool:
+            try:
+                with pytest.raises(KeyboardInterrupt):
+                    answers_of(pool, ask, [1, 2])
+            finally:
+                heard.set()
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_so_is_a_compiler_that_was_started_ahead(kit: BuiltKit, tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ from raysteps.grading.images import (
     trouble,
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import GradingContext, Programs, StepGrader, compile_steps
+from raysteps.grading.step import GradingContext, Programs, StepGrader, answers_of, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.grading.withhold import withhold
 from raysteps.images.render import Gate, Rendered, judge_picture
@@ -429,9 +429,9 @@ def grade_submission(
                 for step in chosen
             ]
             order = -1 if jobs > 1 else 1  # late steps take longest: first, they leave nobody idle at the end
-            alone = list(pool.map(HiddenStepGrader.grade, graders[::order]))
+            alone = answers_of(pool, HiddenStepGrader.grade, graders[::order])
             right = {result.id for result in alone if is_right(result)}
-            steps = list(pool.map(partial(HiddenStepGrader.finish, right=right), graders[::order]))[::order]
+            steps = answers_of(pool, partial(HiddenStepGrader.finish, right=right), graders[::order])[::order]
             if counted.is_spent:
                 _tell_of_the_limit(steps, together)
             name_crash(steps)
@@ -444,7 +444,7 @@ def grade_submission(
                     write_results(withhold(results, settings.feedback), out)
                 else:
                     tell(results)
-            list(pool.map(HiddenStepGrader.explain, graders))
+            answers_of(pool, HiddenStepGrader.explain, graders)
     write_results(withhold(results, settings.feedback), out)
     faults = [grader.fault for grader in graders if grader.fault]
     if faults:

@@ -15,7 +15,7 @@ from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, earlier
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import GradingContext, StepGrader, compile_steps
+from raysteps.grading.step import GradingContext, StepGrader, answers_of, compile_steps
 from raysteps.grading.unit_tests import has_crashed, has_hung, set_aside, tell_crash_line
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
@@ -183,10 +183,10 @@ def _check(
                 graders.append(grader)
             return grader.check()
 
-        found.update(zip([step.id for step in chosen], pool.map(check, chosen), strict=True))
+        found.update(zip([step.id for step in chosen], answers_of(pool, check, chosen), strict=True))
         wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]
         rest = [step for step in steps if step.id not in found and any(step.index < other.index for other in wrong)]
-        found.update(zip([step.id for step in rest], pool.map(check, rest), strict=True))
+        found.update(zip([step.id for step in rest], answers_of(pool, check, rest), strict=True))
     for step in wrong:
         found[step.id].messages[:0] = blame(work, step, found)
     return found, graders

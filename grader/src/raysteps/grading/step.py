@@ -1,10 +1,11 @@
 """What grading a step at home and in a course have in common: it is built, and its visible tests are run."""
 
 import shutil
-from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import usable_folder
@@ -179,6 +180,26 @@ class StepGrader:
 # Compiles the steps of a submission, several at a time.
 
 
+_TURN = 0.5  # seconds
+_Asked = TypeVar("_Asked")
+_Answer = TypeVar("_Answer")
+
+
+def answers_of(pool: Executor, ask: Callable[[_Asked], _Answer], items: Sequence[_Asked]) -> list[_Answer]:
+    """As `pool.map`, but waits in turns: a Ctrl-C that comes just before Python waits without an end, or that another
+    thread takes, is not heard until it wakes up."""
+    futures = [pool.submit(ask, item) for item in items]
+    try:
+        for future in futures:
+            while not future.done():
+                wait([future], _TURN)
+            future.result()
+    finally:
+        for future in futures:
+            future.cancel()
+    return [future.result() for future in futures]
+
+
 def compile_steps(
     work: GradingContext, chosen: list[Step], pool: ThreadPoolExecutor, changes: Mapping[str, float]
 ) -> dict[str, Compiled]:
@@ -194,4 +215,6 @@ def compile_steps(
         build = StudentBuild(work.kit, work.sandbox, work.folder, work.kept)
         return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
 
-    return {step.id: compiled for (step, _), compiled in zip(started, pool.map(compile_one, started), strict=True)}
+    return {
+        step.id: compiled for (step, _), compiled in zip(started, answers_of(pool, compile_one, started), strict=True)
+    }
