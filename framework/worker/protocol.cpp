@@ -44,7 +44,8 @@ std::uint32_t TokenReader::index() {
     const std::string text = word();
     char* end = nullptr;
     const long long value = std::strtoll(text.c_str(), &end, 10);
-    if (end != text.c_str() + text.size() || value < 0 || value > std::numeric_limits<std::uint32_t>::max()) {
+    constexpr long long k_most = std::numeric_limits<std::uint32_t>::max();
+    if (end != text.c_str() + text.size() || value < 0 || value > k_most) {
         throw ProtocolError("expected an index, found " + text);
     }
     return static_cast<std::uint32_t>(value);

@@ -92,8 +92,8 @@ def _refuse_a_class(project: Project, path: Path) -> None:
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Grades one submission."""
-    _refuse_a_class(project, arguments.submission)
     chosen = chosen_steps(project, arguments.only)
+    _refuse_a_class(project, arguments.submission)
     only = [step.id for step in chosen] if chosen != read_steps(project) else []
     seed = read_course(project).seed_or(arguments.seed)
     settings = Settings(arguments.feedback, parse_limits(arguments.limit), tuple(only), seed)

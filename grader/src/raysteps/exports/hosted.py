@@ -31,12 +31,11 @@ from raysteps.exports.items import harmless_log, summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results
-from raysteps.submission.load import ARCHIVE_ENDINGS, load_submission
+from raysteps.submission.load import load_submission
 
 # Grades one submission on the machine of another system.
 
 _GRADED = (0, 1, 3)  # all passed, checks failed, some step does not build
-_MAX_FILES = 200
 
 
 class NotGraded(Exception):
@@ -53,25 +52,11 @@ class Options:
     echo: bool = False  # whether what `grade` says is passed on; only where no student reads it
 
 
-def _one_archive(folder: Path) -> Path | None:
-    """The archive in a folder that holds one and no steps: a student who zipped what was to be dropped in."""
-    files = [path for path, _ in zip(sorted(folder.iterdir()), range(_MAX_FILES), strict=False)]
-    archives = [path for path in files if path.name.lower().endswith(ARCHIVE_ENDINGS) and path.is_file()]
-    return archives[0] if len(archives) == 1 and not archives[0].is_symlink() else None
-
-
 def find_submission(path: Path, steps: list[Step]) -> Path:
-    """The folder or archive to grade; UsageError says what is wrong with what was handed in."""
+    """The folder to grade; UsageError says what is wrong with what was handed in."""
     if not os.access(path, os.R_OK):
         raise NotGraded(f"there is no submission at {path}, or it cannot be read")
-    try:
-        load_submission(path, steps)
-    except UsageError:
-        archive = _one_archive(path) if path.is_dir() else None
-        if archive is None:
-            raise
-        load_submission(archive, steps)
-        return archive
+    load_submission(path, steps)
     return path
 
 
