@@ -4,7 +4,7 @@ import hashlib
 import tempfile
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -27,7 +27,7 @@ from raysteps.grading.images import (
     trouble,
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import GradingContext, Programs, StepGrader, answers_of, compile_steps
+from raysteps.grading.step import TURN, GradingContext, Programs, StepGrader, answers_of, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside
 from raysteps.grading.withhold import withhold
 from raysteps.images.render import Gate, Rendered, judge_picture
@@ -429,9 +429,15 @@ def grade_submission(
                 for step in chosen
             ]
             order = -1 if jobs > 1 else 1  # late steps take longest: first, they leave nobody idle at the end
-            alone = answers_of(pool, HiddenStepGrader.grade, graders[::order])
+            graded = [pool.submit(grader.grade) for grader in graders[::order]]
+            while wait(graded, TURN).not_done:
+                pass
+            alone = [one.result() for one in graded]
             right = {result.id for result in alone if is_right(result)}
-            steps = answers_of(pool, partial(HiddenStepGrader.finish, right=right), graders[::order])[::order]
+            finished = [pool.submit(grader.finish, right=right) for grader in graders[::order]]
+            while wait(finished, TURN).not_done:
+                pass
+            steps = [one.result() for one in finished][::order]
             if counted.is_spent:
                 _tell_of_the_limit(steps, together)
             name_crash(steps)

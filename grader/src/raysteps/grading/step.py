@@ -180,7 +180,7 @@ class StepGrader:
 # Compiles the steps of a submission, several at a time.
 
 
-_TURN = 0.5  # seconds
+TURN = 0.5  # seconds; who waits without an end may not hear a Ctrl-C
 _Asked = TypeVar("_Asked")
 _Answer = TypeVar("_Answer")
 
@@ -189,15 +189,16 @@ def answers_of(pool: Executor, ask: Callable[[_Asked], _Answer], items: Sequence
     """As `pool.map`, but waits in turns: a Ctrl-C that comes just before Python waits without an end, or that another
     thread takes, is not heard until it wakes up."""
     futures = [pool.submit(ask, item) for item in items]
+    answers = []
     try:
         for future in futures:
             while not future.done():
-                wait([future], _TURN)
-            future.result()
+                wait([future], TURN)
+            answers.append(future.result())
     finally:
         for future in futures:
             future.cancel()
-    return [future.result() for future in futures]
+    return answers
 
 
 def compile_steps(
@@ -215,6 +216,5 @@ def compile_steps(
         build = StudentBuild(work.kit, work.sandbox, work.folder, work.kept)
         return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
 
-    return {
-        step.id: compiled for (step, _), compiled in zip(started, answers_of(pool, compile_one, started), strict=True)
-    }
+    compiled = answers_of(pool, compile_one, started)
+    return {step.id: one for (step, _), one in zip(started, compiled, strict=True)}
