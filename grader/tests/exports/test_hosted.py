@@ -140,6 +140,16 @@ def test_a_submission_without_steps_gets_zero_and_a_reason(project: Project, gra
     assert grade.words == []
 
 
+def test_a_damaged_archive_that_was_dropped_in_tells_no_folder(project: Project, grade: Grade, tmp_path: Path) -> None:
+    (tmp_path / "submission").mkdir()
+    (tmp_path / "submission" / "work.zip").write_bytes(b"PK\3\4 but no more")
+    assert running.gradescope(project, tmp_path, _OPTIONS, "visible") == 0
+    said = (tmp_path / "results" / "results.json").read_text(encoding="utf-8")
+    assert "work.zip: cannot be read" in said
+    assert str(tmp_path) not in said
+    assert grade.words == []
+
+
 def test_an_archive_that_was_dropped_in_is_found(
     project: Project, grade: Grade, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
 ) -> None:

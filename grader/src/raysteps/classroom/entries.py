@@ -16,7 +16,7 @@ from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import one_line, printable
 from raysteps.course.manifest import Step
 from raysteps.submission.entries import is_out_of_sight
-from raysteps.submission.load import ARCHIVE_ENDINGS, Submission, load_submission
+from raysteps.submission.load import ARCHIVE_ENDINGS, Submission, load_submission, without_place
 
 _MAX_FILES = 20_000
 _MAX_DEPTH = 6
@@ -158,8 +158,7 @@ def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
             if isinstance(cause, OSError) and cause.errno in _OF_THIS_MACHINE:
                 raise GraderFault(f"the submission cannot be read: {error}") from error
             cause = cause.__cause__
-        # Where the submission lies is nobody's business but the instructor's.
-        reason = printable(str(error).removeprefix(f"{path}: ").replace(f"{path}{os.sep}", ""))
+        reason = printable(without_place(error, path))
         notes = {step.id: f"Nothing was taken from this submission: {reason}" for step in steps}
         return LoadedEntry(Submission(name, {}, notes), unreadable=True)
     except GraderFault:

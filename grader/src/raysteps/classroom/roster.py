@@ -167,7 +167,7 @@ def _words(text: str) -> str:
 
 def _plain(text: str) -> str:
     """Without accents, too: platforms and students leave them out."""
-    return _words(_ACCENTS.sub("", unicodedata.normalize("NFKD", _NAMED.sub("", text))))
+    return _words(_ACCENTS.sub("", unicodedata.normalize("NFKD", text)))
 
 
 def _squeezed(name: str) -> set[str]:

@@ -235,7 +235,9 @@ def _run_mine(program: Path, args: list[str]) -> int:
         "your program is still drawing. If nothing moves, one of your functions may never end: Ctrl-C stops it, and "
         f"{own_command()} check with the number of its step may name the line"
     )
-    telling = threading.Timer(_LONG, _say if "--quiet" not in args else lambda words: None, [words])
+    if "--quiet" in args:
+        return run_raytrace(program, args)
+    telling = threading.Timer(_LONG, _say, [words])
     telling.daemon = True
     telling.start()
     try:

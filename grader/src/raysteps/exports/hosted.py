@@ -31,7 +31,7 @@ from raysteps.exports.items import harmless_log, summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results
-from raysteps.submission.load import load_submission
+from raysteps.submission.load import load_submission, without_place
 
 # Grades one submission on the machine of another system.
 
@@ -50,14 +50,6 @@ class Options:
     steps: tuple[str, ...] = ()
     words: tuple[str, ...] = ()  # for `grade`
     echo: bool = False  # whether what `grade` says is passed on; only where no student reads it
-
-
-def find_submission(path: Path, steps: list[Step]) -> Path:
-    """The folder to grade; UsageError says what is wrong with what was handed in."""
-    if not os.access(path, os.R_OK):
-        raise NotGraded(f"there is no submission at {path}, or it cannot be read")
-    load_submission(path, steps)
-    return path
 
 
 def nothing_handed_in(steps: Sequence[Step], why: str) -> Results:
@@ -79,12 +71,14 @@ def _complaint(outcome: Outcome) -> str:
 def grade_here(project: Project, submission: Path, steps: list[Step], options: Options, work: Path) -> Results:
     """Runs the kit's `grade` in a process of its own and reads what it wrote to the folder."""
     chosen = choose(steps, list(options.steps))
+    if not os.access(submission, os.R_OK):
+        raise NotGraded(f"there is no submission at {submission}, or it cannot be read")
     try:
-        found = find_submission(submission, steps)
+        load_submission(submission, steps)
     except UsageError as error:
-        why = str(error).replace(f"{submission}: ", "")
-        return nothing_handed_in(chosen, f"Nothing to grade was found in what was handed in: {clean(why)}")
-    words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade", found.resolve(), "--out", work]
+        why = clean(without_place(error, submission))
+        return nothing_handed_in(chosen, f"Nothing to grade was found in what was handed in: {why}")
+    words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade", submission.resolve(), "--out", work]
     # One step at a time: a container has less than one processor, and says it has all of its machine's.
     words += ["--jobs", "1", *options.words]
     outcome = run(words, seconds=options.seconds, cwd=project.root)

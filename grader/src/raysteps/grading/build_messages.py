@@ -11,15 +11,9 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
 _MAX_MORE = 3  # errors that are told in a line each, besides the first
-_ERROR = re.compile(
-    r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}): (?:fatal )?error: (?P<text>.+)$",
-    re.M,
-)
-_CAUSE = re.compile(  # of an error in a header
-    r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}):"
-    r"(?:   required from here| note: in instantiation of )",
-    re.M,
-)
+_PLACE = r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}):"
+_ERROR = re.compile(_PLACE + r" (?:fatal )?error: (?P<text>.+)$", re.M)
+_CAUSE = re.compile(_PLACE + r"(?:   required from here| note: in instantiation of )", re.M)  # of an error in a header
 _MICROSOFT_ERROR = re.compile(
     r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M
 )
@@ -45,16 +39,17 @@ class _Error:
 def _errors(output: str) -> list[_Error]:
     """As GCC and Clang write them, or else as Microsoft's compiler does, which knows no columns."""
     found = list(_ERROR.finditer(output)) or list(_MICROSOFT_ERROR.finditer(output))
-    return [
-        _Error(re.split(r"[/\\]", one["path"])[-1], int(one["line"]), int(one["column"] or 0), one["text"])
-        for one in found
-    ]
+    return [_error_at(one, one["text"]) for one in found]
+
+
+def _error_at(place: re.Match[str], text: str) -> _Error:
+    return _Error(re.split(r"[/\\]", place["path"])[-1], int(place["line"]), int(place["column"] or 0), text)
 
 
 def _caused_by(output: str, file: str, error: _Error) -> list[_Error]:
     """An error in a header, such as in std::max, at the line of the file that asked for it; none where none did."""
-    found = (one for one in _CAUSE.finditer(output) if re.split(r"[/\\]", one["path"])[-1] == file)
-    return [_Error(file, int(one["line"]), int(one["column"]), error.text) for one in found][:1]
+    causes = (_error_at(one, error.text) for one in _CAUSE.finditer(output))
+    return [cause for cause in causes if cause.file == file][:1]
 
 
 def errors_in(output: str, file: str) -> bool:

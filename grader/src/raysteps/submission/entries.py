@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import printable, shorten
+from raysteps.common.text import one_line, shorten
 
 MAX_SOURCE = 1 << 20
 MAX_ENTRIES = 20_000
@@ -33,7 +33,7 @@ class Entry:
 def shown(parts: tuple[str, ...]) -> str:
     """A path that a message may hold, whatever bytes it was made of."""
     text = "/".join(parts).encode("utf-8", "replace").decode("utf-8")
-    return shorten(printable(text.replace("\n", " ").replace("\r", " ")), 120)
+    return shorten(one_line(text), 120)
 
 
 def split(path: str) -> tuple[str, ...] | None:

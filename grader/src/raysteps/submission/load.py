@@ -255,6 +255,11 @@ def like(path: Path) -> str:
     return did_you_mean(path.name, names)
 
 
+def without_place(error: UsageError, path: Path) -> str:
+    """What is wrong with a submission, for its student, who need not know where it lies."""
+    return str(error).removeprefix(f"{path}: ").replace(f"{path}{os.sep}", "")
+
+
 def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
     """The folders in a folder that each hold a file of the same step, where it holds none itself: a class."""
     if not path.is_dir():

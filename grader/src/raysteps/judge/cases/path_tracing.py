@@ -171,6 +171,7 @@ _WRONG_WEIGHTS = {
 }
 
 
+_OTHER_PDF = "the pdf is not that of the direction"
 _WRONG_PDFS = {
     "the pdf is 0": 0.0,
     "the pdf is not divided by pi": math.pi,
@@ -180,18 +181,21 @@ _WRONG_PDFS = {
 
 
 def _pdf_problem(pdfs: Numbers, cosines: Numbers) -> str:
-    """Of directions that are no numbers nothing is right."""
+    """What is wrong with the densities of directions that are not near the horizon; where none is such, as of those
+    that are no numbers, nothing is right."""
     steep = cosines > _STEEP
+    if not steep.any():
+        return _OTHER_PDF
     pdfs, densities = pdfs[steep], np.maximum(cosines[steep], 0.0) / math.pi
-    if steep.any() and (np.abs(pdfs - densities) <= _DENSITY.absolute + 1e-3 * densities).all():
+    if (np.abs(pdfs - densities) <= _DENSITY.absolute + 1e-3 * densities).all():
         return ""
-    if steep.any() and np.ptp(pdfs) == 0 and pdfs[0] != 0:
+    if np.ptp(pdfs) == 0 and pdfs[0] != 0:
         of_all = abs(pdfs[0] - 1 / (2 * math.pi)) < 1e-4
         return f"the pdf is {'that of directions that are all equally likely' if of_all else 'the same for all'}"
     for words, factor in _WRONG_PDFS.items():
-        if steep.any() and np.allclose(pdfs, factor * densities, rtol=2e-3, atol=1e-9):
+        if np.allclose(pdfs, factor * densities, rtol=2e-3, atol=1e-9):
             return words
-    return "the pdf is not that of the direction"
+    return _OTHER_PDF
 
 
 def _weight_problem(weights: Numbers, fill: Fill, cosines: Numbers) -> str:

@@ -95,6 +95,7 @@ _STREAMS = "points are the same for different streams"
 _SOME_SQUARES = "some squares have their point always at the same place"
 _FEW_PLACES = "points lie at a few places of their squares only"
 _ROUNDING = 1e-6  # of a place in a square: float knows it no better
+_SHARED = 1e-4  # of a square: so near are places that one random number has made
 
 
 def _varies(numbers: Numbers) -> bool:
@@ -125,9 +126,6 @@ def _of_shared_squares(shares: Numbers) -> str:
     if in_rows or in_columns:
         return f"the squares of a {'row' if in_rows else 'column'} have their points at the same place in them"
     return _SQUARES
-
-
-_SHARED = 1e-4  # of a square
 
 
 def _problem_of_squares(shares: Numbers) -> str:
