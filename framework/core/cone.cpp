@@ -13,11 +13,13 @@ namespace {
 
 using Vec = glm::dvec3;
 
-// The roots of a t^2 + 2 b t + c = 0 in rising order, without cancellation. One root may be infinite or NaN;
-// both are NaN where there is none.
-std::array<double, 2> roots(double a, double b, double c) {
-    const double root = std::sqrt(b * b - a * c);
-    const double q = -(b + std::copysign(root, b));
+// The roots of a t^2 + 2 b t + c = 0 in rising order, without cancellation. One root may be infinite or NaN.
+std::optional<std::array<double, 2>> roots(double a, double b, double c) {
+    const double discriminant = b * b - a * c;
+    if (discriminant < 0.0) {
+        return std::nullopt;
+    }
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
     const double first = q / a;
     const double second = q != 0.0 ? c / q : first;
     return first < second ? std::array{first, second} : std::array{second, first};
@@ -52,13 +54,13 @@ std::optional<HitRecord> Cone::intersect(const Ray& ray) const {
     const Vec apart = start - height * axis_;
     const double radius = static_cast<double>(base_.radius) + slope_ * height;
     const double growth = slope_ * rise;
-    for (const double t : roots(across2 - growth * growth, glm::dot(across, apart) - growth * radius,
-                                glm::dot(apart, apart) - radius * radius)) {
-        if (const auto hit = wall_hit(ray, closest + t)) {
-            return hit;
-        }
+    const auto meetings = roots(across2 - growth * growth, glm::dot(across, apart) - growth * radius,
+                                glm::dot(apart, apart) - radius * radius);
+    if (!meetings) {
+        return std::nullopt;
     }
-    return std::nullopt;
+    const auto nearer = wall_hit(ray, closest + meetings->front());
+    return nearer ? nearer : wall_hit(ray, closest + meetings->back());
 }
 
 // The record for a point where the ray meets the endless cone, if that point counts.
