@@ -100,6 +100,11 @@ TEST_CASE("Triangle: each edge has an inside and an outside", "[02-intersection]
         CHECK_FALSE(triangle.intersect(down_onto(-0.1F, 1.2F)).has_value());
         CHECK_FALSE(triangle.intersect(down_onto(-0.1F, -0.1F)).has_value());
     }
+    SECTION("and so has a triangle of 0.002 across, seen from straight ahead") {
+        const Triangle pebble({0.0F, 0.0F, 0.0F}, {0.002F, 0.0F, 0.0F}, {0.0F, 0.002F, 0.0F}, Fill{});
+        CHECK(pebble.intersect(down_onto(0.0005F, 0.0005F)).has_value());
+        CHECK_FALSE(pebble.intersect(down_onto(0.0015F, 0.0015F)).has_value());
+    }
 }
 
 TEST_CASE("Triangle: two that share an edge leave no crack", "[02-intersection][Triangle::intersect]") {

@@ -9,12 +9,6 @@ namespace raysteps {
 
 namespace {
 
-/// Whether the point, which lies in the plane, is on the inner side of the edge.
-bool on_inner_side(const glm::vec3& start, const glm::vec3& end, const glm::vec3& plane_normal,
-                   const glm::vec3& point) {
-    return glm::dot(glm::cross(end - start, point - start), plane_normal) >= 0.0F;
-}
-
 HitRecord record_hit(const Surface& surface, const Ray& ray, float distance, const glm::vec3& position,
                      const glm::vec3& outward) {
     const bool front_face = glm::dot(outward, ray.direction) < 0.0F;
@@ -24,7 +18,9 @@ HitRecord record_hit(const Surface& surface, const Ray& ray, float distance, con
 }  // namespace
 
 std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
-    const glm::vec3 plane_normal = glm::cross(b_ - a_, c_ - a_);
+    const glm::vec3 to_b = b_ - a_;
+    const glm::vec3 to_c = c_ - a_;
+    const glm::vec3 plane_normal = glm::cross(to_b, to_c);
     const float approach = glm::dot(plane_normal, ray.direction);
     if (approach == 0.0F) {
         return std::nullopt;  // the ray runs along the plane
@@ -34,9 +30,13 @@ std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
         return std::nullopt;
     }
     const glm::vec3 point = point_at(ray, distance);
-    const bool inside = on_inner_side(a_, b_, plane_normal, point) && on_inner_side(b_, c_, plane_normal, point) &&
-                        on_inner_side(c_, a_, plane_normal, point);
-    if (!inside) {
+    // Above 0 on the inner side of an edge: the area between edge and point, times the whole.
+    const glm::vec3 to_point = point - a_;
+    const float inside_ca = glm::dot(glm::cross(to_point, to_c), plane_normal);
+    const float inside_ab = glm::dot(glm::cross(to_b, to_point), plane_normal);
+    const float whole = glm::dot(plane_normal, plane_normal);
+    const float inside_bc = whole - inside_ca - inside_ab;
+    if (inside_ca < 0.0F || inside_ab < 0.0F || inside_bc < 0.0F) {
         return std::nullopt;
     }
     return record_hit(*this, ray, distance, point, glm::normalize(plane_normal));
