@@ -119,8 +119,9 @@ def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:
     facts = document(
         [
             submission("ann"),
-            missing("bob", "unreadable", points=0, final=0),
+            missing("bob", "unreadable", points=0, final=0, not_taken=["It is a RAR archive."]),
             missing("cid", "fault", fault="the moon\nis in the way"),
+            submission("cud", not_taken=[f"{_FIRST}: camera_rays.cpp is larger than 1 MB and was not taken."]),
             submission("dot", late=late, submitted_from="files", submitted_at="2026-11-21T01:00:00+00:00"),
         ],
         students_without_submission=[{**student("Eve", "5"), "note": ""}],
@@ -129,12 +130,20 @@ def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:
     found = {group.heading: [(item.who, list(item.words)) for item in group.items] for group in groups(facts)}
     assert found == {
         "Faults of the grader": [("cid", ["the moon"])],
-        "Nothing could be taken from these": [("bob", [])],
+        "Nothing could be read of these": [("bob", ["It is a RAR archive."])],
+        "Files that could not be read": [
+            ("cud", [f"{_FIRST}: camera_rays.cpp is larger than 1 MB and was not taken."])
+        ],
         "Late by the time of the file": [("dot", ["2026-11-21T01:00:00+00:00, 1 day begun"])],
         "On the roster, but without a submission": [("5 Eve", [])],
         "Graded earlier, but no longer in the folder": [("fay", [])],
     }
-    assert marks(groups(facts)) == {1: ["unreadable"], 2: ["fault"], 3: ["late by file time"]}
+    assert marks(groups(facts)) == {
+        1: ["unreadable"],
+        2: ["fault"],
+        3: ["file not read"],
+        4: ["late by file time"],
+    }
 
 
 def test_an_alias_stays_the_same_when_the_order_of_the_class_changes() -> None:

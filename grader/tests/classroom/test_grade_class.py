@@ -121,6 +121,17 @@ def test_what_goes_wrong_with_one_stops_none(tmp_path: Path, capsys: pytest.Capt
     assert str(tmp_path) not in json.dumps(unread)
     printed = capsys.readouterr()
     assert "fault: the moon is in the way" in printed.out
+    why = {one["name"]: one["not_taken"] for one in document["submissions"]}
+    assert why["empty"] == [f"It holds no step; expected files like steps/{FIRST}."]
+    assert why["notes.txt"] == [
+        f"It is one file; expected a folder with files like steps/{FIRST}, or a zip or tar of it."
+    ]
+    page = (out / "class.html").read_text()
+    notes = {row["submission"]: row["note"] for row in _table(out)}
+    for name in ("empty", "notes.txt"):
+        assert f"{name}: {why[name][0]}" in printed.out
+        assert why[name][0] in page
+        assert notes[name] == why[name][0]
     assert "7 of 7" in printed.err
 
 

@@ -92,6 +92,7 @@ def test_broken_steps_cost_themselves_only(
     assert any(test.passed for test in results.steps[1].tests), "a crash hides the other tests"
     assert status["03"] == "crashed"
     assert "shadows.cpp was not handed in." in results.steps[3].messages
+    assert results.steps[3].not_taken == ""
     assert status["04"] == status["05"] == "not-started"
     assert status["07"] == "timeout"
     assert any(test.passed for test in results.steps[6].tests), "a hang hides the other tests"

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from raysteps.classroom.database import ClassDatabase, has_table
-from raysteps.classroom.entries import folded, read_shard, stem
+from raysteps.classroom.entries import NOTHING_TAKEN, folded, read_shard, stem
 from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with_zone
 from raysteps.classroom.resubmissions import Resubmissions
 from raysteps.classroom.review import review_of_nothing, reviewed
@@ -42,6 +42,13 @@ from raysteps.results.store import stored_results
 def _mistakes(step: StepResult) -> list[str]:
     """Titles of the known mistakes in a step of a result."""
     return sorted({found.title for found in step.diagnoses if found.kind == "mistake"})
+
+
+def _not_taken(status: str, steps: Sequence[StepResult]) -> list[str]:
+    """A kit that did not keep the reasons by themselves has them among the messages, where nothing could be read."""
+    if status == "unreadable":
+        return [f"It {words.removeprefix(NOTHING_TAKEN)}." for step in steps[:1] for words in step.messages[:1]]
+    return [f"{step.id}: {step.not_taken}" for step in steps if step.not_taken]
 
 
 def steps_of(graded: Sequence[GradedStep]) -> list[Step]:
@@ -159,6 +166,7 @@ class Standings:
             isolation=results.isolation.name if results is not None else "",
             fault=current["fault"] if current is not None else "",
             note=" ".join(filter(None, (row["note"], OTHER_FORM if is_unread else ""))),
+            not_taken=_not_taken(current["status"], steps) if current is not None else [],
             results=f"submissions/{row['name']}/results.json" if results is not None else None,
             review=review,
         )

@@ -146,6 +146,9 @@ class LoadedEntry:
     unreadable: bool = False
 
 
+NOTHING_TAKEN = "Nothing was taken from this submission: "  # before why
+
+
 def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
     """What the student packed badly is the student's; what this machine cannot read is a GraderFault."""
     try:
@@ -159,7 +162,7 @@ def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
                 raise GraderFault(f"the submission cannot be read: {error}") from error
             cause = cause.__cause__
         reason = printable(without_place(error, path))
-        notes = {step.id: f"Nothing was taken from this submission: {reason}" for step in steps}
+        notes = {step.id: f"{NOTHING_TAKEN}{reason}" for step in steps}
         return LoadedEntry(Submission(name, {}, notes), unreadable=True)
     except GraderFault:
         raise

@@ -178,7 +178,7 @@ def _mean(document: ClassResults) -> str:
         f"mean {_points(facts.mean)}, median {_points(facts.median)} points{lateness}, of {number(regular)}{on_top}"
     )
     unread = len(document.unreadable)
-    others = f"; without the {unread} from which nothing could be taken" if unread else ""
+    others = f"; without the {unread} that could not be read" if unread else ""
     return f"{count(facts.graded, 'submission')} graded: {points}{others}"
 
 
@@ -196,8 +196,12 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     missing = ", or a shard is missing" if any(run.shard != "1/1" for run in document.runs) else ""
     _print_list(console, f"Not graded yet; --resume goes on{missing}", document.not_graded)
     _print_list(console, "With an earlier result, because what is there now is not graded yet", document.outdated)
-    unread = [f"{name} (results.json says why)" for name in document.unreadable]
-    _print_list(console, "Nothing could be taken from these", unread)
+    unread = [f"{name}: {' '.join(by_name[name].not_taken)}" for name in document.unreadable]
+    _print_list(console, "Nothing could be read of these, so they have 0 points", unread)
+    files = [
+        f"{one.name}: {words}" for one in document.submissions if one.status == "graded" for words in one.not_taken
+    ]
+    _print_list(console, "Files that could not be read, so their steps have 0 points", files)
     _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))
     _print_list(console, "The most common mistakes, by submissions", _mistakes(document))
     changed = [

@@ -119,7 +119,8 @@ class StepGrader:
             missing = f"{step.file} was not handed in."
             if handed_in:
                 missing = f"{step.file} is still the stub. What to do stands in steps/{step.id}/README.md."
-            result.messages = [self._work.submission.notes.get(step.id) or missing]
+            result.not_taken = self._work.submission.notes.get(step.id, "")
+            result.messages = [result.not_taken or missing]
             result.cumulative = Integration(False, "This step was not started.")
             return None
         remark = self._work.submission.remarks.get(step.id)

@@ -264,6 +264,10 @@ class _Finder:
     def faults(self) -> list[Item]:
         return [self._item(name, [_first_line(one.fault)]) for name, one in self._of(self._document.faults)]
 
+    def not_taken(self, status: str) -> list[Item]:
+        found = [one for one in self._document.submissions if one.status == status]
+        return [self._item(one.name, one.not_taken) for one in found if one.not_taken or status == "unreadable"]
+
     def late_by_file(self) -> list[Item]:
         return [
             self._item(name, [f"{one.submitted_at}, {count(one.late.days, 'day')} begun"])
@@ -317,9 +321,16 @@ def groups(document: ClassResults) -> list[Group]:
         Group(
             "unreadable",
             "bad",
-            "Nothing could be taken from these",
-            "0 points, which count in no mean; the report of each says why.",
-            find.plain(document.unreadable),
+            "Nothing could be read of these",
+            "0 points, which count in no mean.",
+            find.not_taken("unreadable"),
+        ),
+        Group(
+            "file not read",
+            "warn",
+            "Files that could not be read",
+            "Their steps have 0 points, as if they were not handed in.",
+            find.not_taken("graded"),
         ),
         Group("not graded", "warn", "Not graded yet", "--resume goes on with these.", find.plain(document.not_graded)),
         Group(

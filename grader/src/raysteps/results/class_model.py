@@ -85,6 +85,8 @@ class GradedSubmission:
     isolation: str  # what kept the code apart from the machine
     fault: str
     note: str
+    # Why: one sentence for all where nothing could be read, else one for each step whose file was not taken.
+    not_taken: list[str] = field(default_factory=list, metadata=OPTIONAL)
     results: str | None  # path of results.json
     review: HumanReview = field(default_factory=HumanReview, metadata=OPTIONAL)
 

@@ -258,6 +258,7 @@ class StepResult:
     build_log: str = ""  # all that the compiler said
     cumulative: Integration = field(default_factory=lambda: Integration(False))
     messages: list[str] = field(default_factory=list)
+    not_taken: str = field(default="", metadata=OPTIONAL)  # why nothing that was handed in could be read as this step
     review: Review | None = field(default=None, metadata=OPTIONAL)  # what a person added; `points` are those that count
 
     @property

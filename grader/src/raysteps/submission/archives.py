@@ -123,7 +123,7 @@ class _Directory(io.BufferedReader):
 
     def read(self, size: int | None = -1, /) -> bytes:
         if size is not None and size > _MAX_DIRECTORY:
-            raise UsageError(f"{self.name}: more than {entries.MAX_ENTRIES} files; hand in the steps only")
+            raise entries.too_many(Path(self.name))
         return super().read(_MAX_DIRECTORY if size is None or size < 0 else size)
 
 

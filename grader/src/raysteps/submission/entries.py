@@ -52,13 +52,13 @@ def is_out_of_sight(folders: tuple[str, ...]) -> bool:
 
 
 def too_many(root: Path) -> UsageError:
-    return UsageError(f"{root}: more than {MAX_ENTRIES} files; hand in the steps only")
+    return UsageError(f"{root}: holds more than {MAX_ENTRIES} files; hand in the steps only")
 
 
 def check_unpacked(root: Path, unpacked: int, packed: int) -> None:
     """Refuses what would grow too much, before it does."""
     if unpacked > MAX_UNPACKED:
-        raise UsageError(f"{root}: more than {MAX_UNPACKED >> 20} MB unpacked; hand in the steps only")
+        raise UsageError(f"{root}: holds more than {MAX_UNPACKED >> 20} MB unpacked; hand in the steps only")
     if unpacked > RATIO_COUNTS_FROM and unpacked > MAX_RATIO * packed:
         raise UsageError(f"{root}: unpacks to more than {MAX_RATIO} times its size; hand in the steps only")
 
