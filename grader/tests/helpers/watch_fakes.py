@@ -1,7 +1,8 @@
 """A worker that builds nothing: it does what it reads in the student's file, and a command line that uses it.
 
-`// broken` does not build, `// wrong` fails, `// wait 0.5` takes time, `// wait check` as long as it may, `// crash`
-ends in the middle, `// program` starts one that never ends, `// hang` never answers."""
+`// broken` does not build, `// wrong` fails, `// endless` has a test that was stopped, `// wait 0.5` takes time,
+`// wait check` as long as it may, `// crash` ends in the middle, `// program` starts one that never ends, `// hang` never
+answers."""
 
 import argparse
 import json
@@ -64,6 +65,8 @@ def result_of(step: Step, source: str, out: Path, *, full: bool) -> StepResult:
         TestResult("it is there", True),
         TestResult("it is <b>right</b>", right, "" if right else "a & b", "x == 1", "2 == 1", "own_test.cpp:7"),
     ]
+    if "// endless" in source:
+        result.tests.append(TestResult("it ends", False, "It was stopped.", outcome="timeout"))
     shade = 200 if right else 20
     image = ImageResult(step.images[0].name, step.images[0].scene, right, 0.01)
     image.message = "" if right else "50.00% of the pixels are wrong."

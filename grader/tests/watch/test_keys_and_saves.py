@@ -121,6 +121,21 @@ def test_crashes_and_hangs_do_not_stop_the_loop(course: Project, steps: list[Ste
     assert _scratch(course) == []
 
 
+def test_what_hung_is_not_asked_again_before_somebody_wants_it(
+    course: Project, steps: list[Step], terminals: list[Terminal]
+) -> None:
+    write_own(course, steps[2], "// endless")
+    terminals.append(terminal := _watch(course, "3", "--no-browser"))
+    terminal.wait("2 of 3 tests right")
+    assert "checking all of it" not in terminal.wait("press c to check all of it")
+    terminal.wait("q quit")
+    terminal.press("c")
+    terminal.wait("checking all of it")
+    terminal.wait("✓ Passed: 15 of 15 points.")
+    terminal.press("q")
+    assert terminal.end() == 0
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_an_end_from_outside(
     course: Project, steps: list[Step], terminals: list[Terminal], number: signal.Signals

@@ -62,15 +62,16 @@ class ImageGrader:
         return case.args if self.kit.has_reference or case.has_tree else (*case.args, _TREE, _NO_TREE)
 
     def render(self, program: Program, scene: Path, args: tuple[str, ...], *, noisy: bool = False) -> Rendered:
-        rendered = render(self.sandbox, program, scene, args, self.limits.of_program(), estimates=noisy)
+        limits = self.limits
+        rendered = render(self.sandbox, program, scene, args, limits.of_program(), estimates=noisy)
         if rendered.ran.was_stopped:
             self.stopped()
-        return rendered
+        return replace(rendered, sooner=limits.is_impatient)
 
 
 def trouble(rendered: Rendered) -> tuple[Termination, str]:
     """What kept a picture from being made."""
-    outcome, message = describe_exit(rendered.ran, "The picture")
+    outcome, message = describe_exit(rendered.ran, "The picture", sooner=rendered.sooner)
     return outcome, message or f"{rendered.problem.capitalize()}."
 
 
@@ -205,5 +206,6 @@ def grade_integration(
     verdict = judge_picture(gallery.kit, scene, replace(case, max_wrong=most_wrong), rendered)
     if not verdict.passed:
         return Integration(False, f"{case.name}: {verdict.message}")
-    whom = [f"for {join_and(steps)}: {why}" for why, steps in replaced.items() if steps]
-    return Integration(True, f"The reference stood in {', and '.join(whom)}." if whom else "")
+    whom = [f"{join_and(steps)}, which {why}" for why, steps in replaced.items() if steps]
+    words = f"The picture is right. It was drawn with the reference's {', and '.join(whom)}." if whom else ""
+    return Integration(True, words)

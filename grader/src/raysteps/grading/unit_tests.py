@@ -7,17 +7,18 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, field, replace
 from itertools import chain
 
-from raysteps.common.text import in_seconds, join_and, printable, shorten
+from raysteps.common.text import join_and, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import called_functions, unfinished_functions
-from raysteps.images.render import ENDLESS
+from raysteps.images.render import not_in_time
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 from raysteps.sandbox.task import Output, Sandbox, TaskResult, Word
-from raysteps.toolchain.catch2 import THREW, TestOutcome, parse_report
+from raysteps.toolchain.catch2 import THREW, CutReport, TestOutcome, parse_cut_report, parse_report
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
-_MAX_STOPS = 6  # tests that are waited for, besides those of functions that were not among them
+_MAX_STOPS = 3  # tests that are waited for, besides those of functions that were not among them
+_NEARLY_ALL = 0.75  # of the time that all tests have: whoever took that by itself is not asked again
 _TOO_MUCH_MEMORY = (
     "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
 )
@@ -32,7 +33,7 @@ _SPECIAL = re.compile(r'([\\,\["])')
 def _run(
     sandbox: Sandbox, program: Program, limits: StepLimits, most: float, only: str | None = None, *, tools: bool = False
 ) -> TaskResult:
-    words: tuple[Word, ...] = ("-r", "xml", "-o", Output("report"))
+    words: tuple[Word, ...] = ("-r", "xml", "-d", "yes", "-o", Output("report"))
     if only is not None:
         words += (_SPECIAL.sub(r"\\\1", only),)
     return sandbox.run(replace(program.task(words, limits.of_program(most)), tools=tools))
@@ -64,14 +65,17 @@ def _result(case: TestOutcome) -> TestResult:
     )
 
 
-def _result_alone(ran: TaskResult, name: str) -> TestResult:
+def _result_alone(ran: TaskResult, name: str, *, sooner: bool) -> TestResult:
     cases = _complete(ran, [name])
     if cases is not None:
         return _result(cases[0])
     if ran.hung:
-        message = f"The test was stopped after {in_seconds(ran.outcome.seconds)}. {ENDLESS}"
-        return TestResult(name, False, message, outcome="timeout")
+        return _hung(name, ran.outcome.seconds, sooner=sooner)
     return TestResult(name, False, _why_cut_short(ran), outcome="crashed")
+
+
+def _hung(name: str, seconds: float, *, sooner: bool) -> TestResult:
+    return TestResult(name, False, not_in_time("The test", seconds, sooner=sooner), outcome="timeout")
 
 
 def _why_cut_short(ran: TaskResult) -> str:
@@ -92,28 +96,47 @@ def run_tests(
     say: Callable[[str], None] = lambda text: None,
 ) -> list[TestResult]:
     """All test cases, each with the functions that it tests, in one process; when that ends badly, each in a process of
-    its own. After some that were stopped, only those of functions that were not among these are run. `say` hears of
-    waits."""
+    its own. The one in which that process was stopped is not run again, if it had nearly all of its time. After some
+    that were stopped, only those of functions that were not among these are run. `say` hears of waits."""
     ran = _run(sandbox, program, limits, limits.seconds)
     together = _complete(ran, tests)
-    if ran.was_stopped:
-        limits = limits.after_a_stop()
-        say(f"the tests were stopped; each runs by itself now, for at most {in_seconds(limits.seconds)}")
     if together is not None:
         found = {case.name: _result(case) for case in together}
         return [found[name] for name in tests]
+    known: dict[str, TestResult] = {}
+    if ran.was_stopped:
+        seconds, limits = limits.seconds, limits.after_a_stop()
+        cut = _cut_short(ran, tests, seconds)
+        if cut is not None:
+            known = {case.name: _result(case) for case in cut.ended}
+            known[cut.running] = _hung(cut.running, seconds, sooner=False)
+            limits = limits.after_a_stop()
+        say(f"{'a test was' if known else 'the tests were'} stopped; each of the others runs by itself now")
     results: list[TestResult] = []
-    hung: list[set[str]] = []  # the functions of each test that was stopped
+    hung: list[set[str]] = [set(tests[name]) for name, result in known.items() if was_stopped(result)]
     for name, functions in tests.items():
-        if sum(map(was_stopped, results)) >= _MAX_STOPS and any(one.issuperset(functions) for one in hung):
+        if name in known:
+            results.append(known[name])
+            continue
+        if len(hung) >= _MAX_STOPS and any(one.issuperset(functions) for one in hung):
             results.append(TestResult(name, False, _NOT_RUN, outcome="timeout"))
             continue
-        results.append(_result_alone(_run(sandbox, program, limits, limits.seconds, name), name))
+        alone = _run(sandbox, program, limits, limits.seconds, name)
+        results.append(_result_alone(alone, name, sooner=limits.is_impatient))
         if was_stopped(results[-1]):
             hung.append(set(functions))
             limits = limits.after_a_stop()
             say(f"stopped: {name}")
     return results
+
+
+def _cut_short(ran: TaskResult, names: Collection[str], seconds: float) -> CutReport | None:
+    """What a process tells that ran out of time in one test; None where several shared in the time."""
+    cut = parse_cut_report(ran.outputs.get("report", b"")) if ran.hung else None
+    if cut is None or seconds - cut.after < _NEARLY_ALL * seconds:
+        return None
+    told = [*(case.name for case in cut.ended), cut.running]
+    return cut if len(set(told)) == len(told) and set(told) <= set(names) else None
 
 
 def was_stopped(test: TestResult) -> bool:
@@ -132,7 +155,7 @@ _LONGEST_LINE = 2000  # of those that are searched for words
 _LONGEST_CAUSE = 4000  # characters of a report beside its stacks
 _MAX_FRAMES = 50  # of a stack, in the student's files
 _SLOWER = 5  # times as long as without
-_SECONDS_OF_A_HANG = 6.0  # of work, in which its stack is printed several times
+_SECONDS_OF_A_HANG = 4.0  # of work: its stack is printed ten times within the first three
 _ALL_MEMORY_MB = 64 << 20  # of addresses: a sanitizer reserves terabytes, and watches by itself what is used
 _HEAD = re.compile(
     r"==\d+== *ERROR: AddressSanitizer:? (?P<error>.*)|.*: runtime error: (?P<undefined>.*)|thrown: (?P<thrown>.*)"

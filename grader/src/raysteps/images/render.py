@@ -145,6 +145,7 @@ class Rendered:
     share_tested: float | None = None
     work: Work | None = None
     estimates: Estimates | None = None  # where they were asked for
+    sooner: bool = False  # it had less time than the step says
 
 
 def _share_tested(stats: bytes) -> float | None:
@@ -329,16 +330,24 @@ def reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Work:
 
 # How a student's program ended, in words.
 
-ENDLESS = "Is there an endless loop? Once a program of a step has hung, the next ones get less time."
+ENDLESS = "Is there an endless loop?"
 
 
-def describe_exit(ran: TaskResult, what: str) -> tuple[Termination, str]:
+def not_in_time(what: str, seconds: float, *, sooner: bool) -> str:
+    """Of what was stopped. The one number that is told is the time that the step has: where programs before have used
+    it up, this one had less (`sooner`), and is said to be one more of them."""
+    if sooner:
+        return f"{what} was stopped, too. {ENDLESS} Programs of a step have less time once two of them were stopped."
+    return f"{what} was stopped after {in_seconds(seconds)}. {ENDLESS}"
+
+
+def describe_exit(ran: TaskResult, what: str, *, sooner: bool = False) -> tuple[Termination, str]:
     """`what` is what the program was to make, such as `The picture`. Only for a program that did not make it."""
     outcome = ran.outcome
     if ran.stopped == "memory":
         return "crashed", f"{what} needed more memory than a program may have here."
     if outcome.timed_out or ran.stopped in ("wall", "cpu"):
-        return "timeout", f"{what} was not ready after {in_seconds(outcome.seconds)}. {ENDLESS}"
+        return "timeout", not_in_time(what, outcome.seconds, sooner=sooner)
     if outcome.signal_name is not None:
         return "crashed", f"{what} was not made: the program crashed ({outcome.signal_words})."
     if outcome.code != 0:

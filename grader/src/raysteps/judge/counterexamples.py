@@ -33,6 +33,7 @@ from raysteps.results.store import FOLDER, place_of
 # How long a student's program may run for the examples that a step is shown with.
 
 _RUN_SECONDS = 2.0
+_SECONDS_OF_A_HANG = 1.0  # of a function that is known to hang
 
 
 @dataclass
@@ -44,8 +45,9 @@ class CpuBudget:
     left: float = 8.0
     idle: float = 20.0
 
-    def next_run(self) -> float:
-        return _RUN_SECONDS if min(self.left, self.idle) > 0 else 0.0
+    def next_run(self, *, hangs: bool = False) -> float:
+        most = _SECONDS_OF_A_HANG if hangs else _RUN_SECONDS
+        return most if min(self.left, self.idle) > 0 else 0.0
 
     def spend(self, cpu_seconds: float, wall_seconds: float) -> None:
         """Of one run."""
@@ -187,7 +189,7 @@ class Shrinker:
         good: list[Change] = []
         barren = 0
         for _ in range(_ROUNDS_OF_SILENCE if found.outcome == "timeout" else _ROUNDS):
-            seconds = self._budget.next_run()
+            seconds = self._budget.next_run(hangs=found.outcome == "timeout")
             proposed = self._proposed(base, live, good, tried) if seconds and barren < _BARREN else []
             if not proposed:
                 break

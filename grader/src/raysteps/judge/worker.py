@@ -9,7 +9,6 @@ from typing import TypeAlias
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
-from raysteps.common.text import in_seconds
 from raysteps.judge.answers import Verdict
 from raysteps.judge.functions import Case, Function
 from raysteps.results.model import Termination
@@ -55,6 +54,7 @@ class TimeBudget:
 
 Ask: TypeAlias = Callable[[bytes, float], TaskResult]  # the worker's stdin, and how many seconds it may take
 
+NO_END = "it did not come to an end in the time that it has"
 _MAX_ENDINGS = 3  # in one kind of cases; what else is of that kind is not asked, and counts like what was
 _MAX_RESTARTS = 24
 _MAX_CUTS = 30  # a long answer may be cut off at the limit of a sandbox; what came before counts
@@ -108,7 +108,7 @@ def _trouble(ran: TaskResult, *, in_a_line: bool) -> Reply:
     """Why the worker stopped in the middle."""
     outcome = ran.outcome
     if ran.hung:
-        return Reply("", "timeout", f"stopped after {in_seconds(outcome.seconds)}")
+        return Reply("", "timeout", NO_END)
     if ran.stopped == "memory":
         return Reply("", "crashed", "stopped for taking too much memory")
     if outcome.code == 0 and in_a_line:

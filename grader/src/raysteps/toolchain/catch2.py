@@ -213,6 +213,41 @@ def parse_report(report: bytes) -> list[TestOutcome] | None:
         return None
 
 
+@dataclass(frozen=True)
+class CutReport:
+    """What a report tells that was cut short: the tests that had ended, and the one that ran, after so many seconds."""
+
+    ended: list[TestOutcome]
+    running: str
+    after: float
+
+
+def parse_cut_report(report: bytes) -> CutReport | None:
+    """Of a program that was stopped; None where it tells no test that ran. Catch2 writes each test as it begins, and
+    with `-d yes` the seconds of those that have ended."""
+    if len(report) > _MAX_BYTES or report.count(b"<") > _MAX_TAGS:
+        return None
+    whole, end, rest = report.rpartition(_END_OF_A_TEST)
+    beginning = _BEGINNING.search(rest if end else report)
+    if beginning is None:
+        return None
+    try:
+        first = _BEGINNING.search(whole)
+        root = fromstring(_as_xml(b"<Catch>" + (whole[first.start() :] + end if first else b"") + b"</Catch>"))
+        running = fromstring(_as_xml(beginning[0] + _END_OF_A_TEST)).get("name", "")
+        ended = root.findall("TestCase")
+        seconds = [float(one.get("durationInSeconds", "nan")) for one in root.findall("TestCase/OverallResult")]
+    except Exception:  # cut in the middle of what is needed, or not in order
+        return None
+    if len(seconds) != len(ended):
+        return None
+    return CutReport([_outcome(case) for case in ended], printable(running), sum(seconds))
+
+
+_END_OF_A_TEST = b"</TestCase>"
+_BEGINNING = re.compile(rb"<TestCase [^<>]*>")
+
+
 def _outcomes(root: Element) -> list[TestOutcome] | None:
     totals = root.find("OverallResultsCases")
     if root.tag not in ("Catch", "Catch2TestRun") or totals is None:

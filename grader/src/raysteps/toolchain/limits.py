@@ -42,6 +42,11 @@ class StepLimits:
         less = min(self.seconds, max(LEAST_SECONDS, self.seconds / 4))
         return replace(self, stops=self.stops + 1, seconds=less if self.stops + 1 == PATIENT_STOPS else self.seconds)
 
+    @property
+    def is_impatient(self) -> bool:
+        """Whether programs have less time than the step says, as some were stopped."""
+        return self.stops >= PATIENT_STOPS
+
     def of_tools(self) -> Limits:
         """For the compiler, the assembler and the linker."""
         return Limits(

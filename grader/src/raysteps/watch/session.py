@@ -306,7 +306,11 @@ class Session:
         self.showing.result(view)
         self.show()
         asked, self.check_after_look = self.check_after_look, False
-        if not was_check and view.can_be_checked and (self._checks or asked):
+        goes_on = not was_check and view.can_be_checked and (self._checks or asked)
+        if goes_on and view.hung and not asked:
+            self.showing.dim("what hangs would hang again: press c to check all of it nevertheless")
+            self._actions.remind()
+        elif goes_on:
             self._check_at = time.monotonic() + (0 if asked else _IDLE_SECONDS)
         else:
             self._actions.remind()

@@ -98,6 +98,12 @@ class StepView:
         return self.complete and not self.problem and not self.gone and self.status in _BUILDS
 
     @property
+    def hung(self) -> bool:
+        """Whether something was stopped: a check would wait for the same once more."""
+        items: Items = [*self.result.tests, *self.result.images] if self.result else []
+        return any(item.outcome == "timeout" and not item.waits_for for item in items)
+
+    @property
     def is_done(self) -> bool:
         return self.full and self.complete and self.status == "passed"
 
