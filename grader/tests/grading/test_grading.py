@@ -203,4 +203,6 @@ def test_a_wrong_step_is_replaced_for_the_steps_after_it(
     sources = {**solved, "02-intersection": wrong}
     results = _grade(kit, make_submission("second", sources), tmp_path / "out")
     assert [step.id for step in results.steps if step.status != "passed"] == ["02-intersection"]
-    assert results.steps[2].cumulative.message == "The reference stood in for 02-intersection: not right yet."
+    assert results.steps[2].cumulative.message == (
+        "The picture is right. It was drawn with the reference's 02-intersection, which you do not have right yet."
+    )

@@ -68,7 +68,9 @@ def test_no_step_waits_for_a_processor_that_is_busy_with_another(
     results = grade_submission(kit.in_one_process(), submission, Settings(only=chosen), sandbox, tmp_path, jobs=4)
     assert [result.status for result in results.steps] == ["passed"] * 3
     together = results.steps[1].cumulative
-    assert together.message == "The reference stood in for 02-intersection: not graded in this run."
+    assert together.message == (
+        "The picture is right. It was drawn with the reference's 02-intersection, which you left out this time."
+    )
 
 
 def test_what_is_compiled_ahead_is_not_compiled_again(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from rich.console import Console
 from raysteps.course.manifest import Step
 from raysteps.course.project import here
 from raysteps.images.compare import write_png
-from raysteps.report.terminal import print_details
+from raysteps.report.terminal import print_details, print_diagnoses, print_table
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
 
 _LONG = "a sentence that is far too long for a narrow terminal [and in brackets] and goes on and on"
@@ -51,10 +51,10 @@ def test_a_wrong_picture_of_ones_own_has_the_command_of_its_worst_pixel(steps: l
     case = steps[1].images[0]
     result.images = [ImageResult(case.name, case.scene, False, 0.1, mine="mine.png", reference="reference.png")]
     said = {}
-    for inspects in (False, True):
+    for own in (False, True):
         console = Console(file=(text := io.StringIO()), width=10_000, color_system=None)
-        print_details(console, Results.of("ann", [result]), steps, tmp_path, str, inspects=inspects)
-        said[inspects] = text.getvalue()
+        print_details(console, Results.of("ann", [result]), steps, tmp_path, str, own=own)
+        said[own] = text.getvalue()
     size = case.args[case.args.index("--size") + 1]
     line = next(line for line in said[True].splitlines() if line.startswith(" " * 13 + "inspect   ./raysteps inspect "))
     assert f"inspect {case.scene} 31 7 " in line
@@ -67,3 +67,24 @@ def test_elsewhere_no_line_is_broken(steps: list[Step]) -> None:
     lines = _printed(steps, width=10_000, terminal=False)
     assert sum(_LONG in line for line in lines) == 11
     assert all(line == line.rstrip() for line in lines)
+
+
+def test_what_explains_a_step_of_ones_own_is_left_for_the_end(steps: list[Step], tmp_path: Path) -> None:
+    """There a person looks first, and there it comes also where it had to be learned before."""
+    result = StepResult(steps[1].id, "partial", 1.0, steps[1].points, steps[1].bonus)
+    result.diagnoses = [Diagnosis("mistake", "one", "the normal is not of unit length")]
+    results = Results.of("ann", [result])
+    console = Console(file=(text := io.StringIO()), width=100, color_system=None)
+    print_details(console, results, steps, tmp_path, str, own=True)
+    assert "unit length" not in text.getvalue()
+    print_diagnoses(console, results)
+    assert "most likely  the normal is not of unit length" in text.getvalue()
+
+
+def test_a_newcomer_is_told_what_together_means(steps: list[Step]) -> None:
+    result = StepResult(steps[1].id, "passed", 1.0, steps[1].points, steps[1].bonus, tests=[TestResult("a", True)])
+    result.cumulative.passed = True
+    console = Console(file=(text := io.StringIO()), width=300, color_system=None)
+    print_table(console, Results.of("ann", [result]))
+    assert "│ right " in text.getvalue()
+    assert "is the step's first picture also right with your own earlier steps?" in text.getvalue()

@@ -41,18 +41,21 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     def tell(found: CheckResult) -> None:
         nonlocal told
         told = True
-        print_details(console, found.results, found.kit.steps, out, replay_command, inspects=True)
+        print_details(console, found.results, found.kit.steps, out, replay_command, own=True)
         console.print()
         print_table(console, found.results, visible_only=not project.has_reference)
         print_files(console, out / "results.json", found.page)
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)
+    waited = told
     if not told:
         tell(checked)
-    elif any(result.diagnoses for result in checked.results.steps):
+    if any(result.diagnoses for result in checked.results.steps):
         print_diagnoses(console, checked.results)
-    elif project.has_reference and any(map(_is_unexplained, checked.results.steps)):  # and somebody has waited
+    elif (
+        waited and project.has_reference and any(map(_is_unexplained, checked.results.steps))
+    ):  # and somebody has waited
         console.print("The known mistakes are learned; none of them explains what is wrong.")
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:

@@ -344,8 +344,8 @@ class HiddenStepGrader(StepGrader):
                     self._wait_for(own)
                     only = self._settings.only
                     others = {
-                        "not graded in this run": [one.id for one in replaced if only and one.id not in only],
-                        "not right yet": [one.id for one in replaced if not only or one.id in only],
+                        "you left out this time": [one.id for one in replaced if only and one.id not in only],
+                        "you do not have right yet": [one.id for one in replaced if not only or one.id in only],
                     }
                     self._result.cumulative = grade_integration(self._gallery, program, step, own, others)
                 self._result.status, self._result.points = status_and_points(self._result, step)

@@ -166,7 +166,7 @@ def parts_of(result: StepResult, step: Step | None) -> list[Part]:
         ("tests", _right(result.tests, "test", result.share_of_tests), step.weight_tests),
         ("pictures", _right(result.images, "picture", result.share_of_images), step.weight_images),
         ("hidden", (percent(share) if result.hidden else "not run", share), step.weight_hidden),
-        ("together", ("yes" if together else "no", float(together)), step.weight_together),
+        ("together", ("right" if together else "wrong", float(together)), step.weight_together),
     ]
     if result.max < step.points - _NEAR:
         found = [part for part in found if part[0] != "hidden"]

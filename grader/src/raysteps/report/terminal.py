@@ -19,7 +19,10 @@ from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 
-_TOGETHER = "together: the step's first picture with your own steps before it, as far as they are right"
+_TOGETHER = (
+    "together: is the step's first picture also right with your own earlier steps? The reference stands in for those that "
+    "are wrong or left out"
+)
 _VISIBLE = "tests and pictures with your own steps before each; your course may test hidden inputs, too"
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 
@@ -145,10 +148,11 @@ def short_path(path: Path) -> str:
 
 
 def print_details(
-    console: Console, results: Results, steps: list[Step], out: Path, again: Again, *, inspects: bool = False
+    console: Console, results: Results, steps: list[Step], out: Path, again: Again, *, own: bool = False
 ) -> None:
     """What happened in each step: what failed, in full, and what passed in one line. `again` is the command that asks a
-    case once more; `inspects`: the steps are those in the repository, so that `inspect` sees what they do."""
+    case once more; `own`: the steps are those in the repository, so that `inspect` sees what they do, and what explains
+    them comes last, by `print_diagnoses`: where their student looks first."""
     known = {step.id: step for step in steps}
     for result in results.steps:
         console.print(
@@ -158,7 +162,7 @@ def print_details(
             for line in message.splitlines():
                 _print_hanging(console, "  ", line)
         once = SaidOnce(result.messages)
-        for diagnosis in result.diagnoses:
+        for diagnosis in () if own else result.diagnoses:
             _print_diagnosis(console, diagnosis)
         for test in result.tests:
             if not test.passed and not test.waits_for:
@@ -168,7 +172,7 @@ def print_details(
         for image in result.images:
             if not image.waits_for:
                 _print_image(console, image, out, once)
-                worst = inspect_worst(known[result.id], image, out) if inspects else None
+                worst = inspect_worst(known[result.id], image, out) if own else None
                 if worst is not None:
                     console.print(f"{' ' * _INDENT}{'inspect':<{_LABEL}}{escape(typed(worst))}", soft_wrap=True)
         if known[result.id].is_about_a_tree:
@@ -183,7 +187,7 @@ def print_details(
 
 
 def print_diagnoses(console: Console, results: Results) -> None:
-    """What explains the wrong steps, of results that were printed before it was known."""
+    """What explains the wrong steps, in one place, which takes seconds to find out or is known already."""
     for result in results.steps:
         if result.diagnoses:
             console.print(f"\n[bold]{result.id}[/bold]")
@@ -207,7 +211,7 @@ def print_table(console: Console, results: Results, *, visible_only: bool = Fals
             f"{sum(test.passed for test in result.tests)}/{len(result.tests)}" if ran else "",
             f"{sum(image.passed for image in result.images)}/{len(result.images)}" if ran else "",
             f"{sum(item.passed for item in result.hidden)}/{len(result.hidden)}" if result.hidden else "",
-            ("yes" if result.cumulative.passed else "no") if ran else "",
+            ("right" if result.cumulative.passed else "wrong") if ran else "",
         ]
         table.add_row(*row[: len(table.columns)])
     console.print(table)
