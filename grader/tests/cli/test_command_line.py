@@ -12,7 +12,9 @@ from course_fakes import small_project
 
 from raysteps.cli import app
 from raysteps.cli.app import exit_code_of, main, new_parser
+from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
+from raysteps.submission.load import refuse_results_in
 
 pytestmark = pytest.mark.portable
 
@@ -196,3 +198,25 @@ def test_a_reader_who_is_gone_ends_a_command_without_a_word(words: list[str], un
     done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, env=environment, timeout=60, check=False)
     os.close(writing)
     assert (done.returncode, done.stderr) == (141, b"")
+
+
+@pytest.mark.parametrize("out", ["ann", "ann/results", "ann/../ann", "link"])
+def test_a_submission_stays_as_it_was_handed_in(capsys: pytest.CaptureFixture[str], tmp_path: Path, out: str) -> None:
+    ann = tmp_path / "ann"
+    (ann / "steps" / "01-camera-rays").mkdir(parents=True)
+    (ann / "steps" / "01-camera-rays" / "camera_rays.cpp").write_text("int a;")
+    (ann / "results.json").write_text("my own notes")
+    if out == "link":
+        (tmp_path / "link").symlink_to(ann)
+    assert main(["grade", str(ann), "--out", str(tmp_path / out)]) == 2
+    told = f"--out {tmp_path / out}: the results would lie among what was handed in, {ann}; name another folder"
+    assert told in capsys.readouterr().err
+    assert sorted(path.name for path in ann.iterdir()) == ["results.json", "steps"]
+    assert (ann / "results.json").read_text() == "my own notes"
+
+
+def test_a_whole_kit_may_be_graded_into_its_build_folder(tmp_path: Path) -> None:
+    refuse_results_in(tmp_path, tmp_path / "build" / "grades", ("pictures",))
+    refuse_results_in(tmp_path / "ann.zip", tmp_path, ("pictures",))
+    with pytest.raises(UsageError, match="among what was handed in"):
+        refuse_results_in(tmp_path / "pictures" / "ann", tmp_path, ("pictures",))

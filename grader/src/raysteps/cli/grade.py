@@ -25,8 +25,9 @@ from raysteps.grading.withhold import withhold
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results, Settings
+from raysteps.results.store import FOLDER as CASES
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.submission.load import load_submission, submission_name, submissions_inside
+from raysteps.submission.load import load_submission, refuse_results_in, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.limits import LIMIT_HELP, give_up_after, parse_limits
 
@@ -117,6 +118,8 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         words = ["replay", short_path(out / case), "--submission", str(options.submission)]
         return f"{own_command()} {quote_command(words)}"
 
+    if options.out is not None:
+        refuse_results_in(options.submission, options.out, ("pictures", CASES))
     course = read_course(project).name
     sandbox = find_sandbox(require=options.require_sandbox)
     room = _room(project)

@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from raysteps.common.text import did_you_mean, join_and, printable
 from raysteps.course.manifest import Step
 from raysteps.submission.archives import DAMAGED, FOREIGN_ENDINGS, archive_entries
 from raysteps.submission.encoding import decode
-from raysteps.submission.entries import MAX_ABOVE, Entry, RejectedFile, shown
+from raysteps.submission.entries import MAX_ABOVE, Entry, RejectedFile, is_out_of_sight, shown
 from raysteps.submission.folders import FolderReader, PlainFolderReader
 
 # Where the files of a submission are expected, and which names are close to an expected one.
@@ -276,6 +276,19 @@ def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
 def is_submission(path: Path, steps: list[Step]) -> bool:
     """Whether a folder holds a step itself, in a folder of the step's name."""
     return any((path / above / step.path).is_file() for step in steps for above in ("steps", ""))
+
+
+def refuse_results_in(handed_in: Path, out: Path, rooms: Sequence[str]) -> None:
+    """What was handed in must stay as it is: results in it would be handed in the next time, and earlier ones are
+    cleared. `rooms` are the folders in `out` that a grading writes to. Where a submission is a whole kit, its `build`
+    and other folders of tools are no part of it."""
+    real, place = handed_in.resolve(), out.resolve()
+    below = place.relative_to(real).parts if place.is_relative_to(real) else None
+    is_in = below is not None and not (below and is_out_of_sight(below))
+    if is_in or any(real.is_relative_to(place / room) for room in rooms):
+        raise UsageError(
+            f"--out {out}: the results would lie among what was handed in, {handed_in}; name another folder"
+        )
 
 
 def _highest(homes: set[tuple[str, ...]]) -> list[tuple[str, ...]]:
