@@ -99,5 +99,8 @@ def run_checks(checks: Sequence[Check], console: Console, stamps: Stamps) -> int
             lines = "\n".join(one.report.detail.rstrip().splitlines()[-_LAST_LINES:])
             console.print(f"failed: {one.check.name}\n{lines}", markup=False, highlight=False)
     amount = {verdict: sum(one.report.verdict == verdict for one in done) for verdict in _COLORS}
-    print(f"{amount['passed']} passed, {amount['failed']} failed, {amount['skipped']} skipped", flush=True)
+    print(
+        f"{len(done)} checks: {amount['passed']} passed, {amount['failed']} failed, {amount['skipped']} skipped",
+        flush=True,
+    )
     return 1 if amount["failed"] else 0

@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
@@ -121,7 +122,10 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
     stamps.keep({name: inputs[place] for place in right for name in names[place]}, digests)
     if ended and not wrong:
         same = len(inputs) - len(changed)
-        return Report("passed", f"{same} of {len(inputs)} files are as before" if same else "")
+        amount = re.findall(r"^(\d.*?) in \d.*$", outcome.stdout, re.MULTILINE)[-1:]  # the last line of a run
+        return Report(
+            "passed", "; ".join([*amount, *([f"{same} of {len(inputs)} files are as before"] if same else [])])
+        )
     output = (outcome.stdout + outcome.stderr)[-6000:]
     return Report("failed", f"it ran longer than {_PYTEST_SECONDS} s\n{output}" if outcome.timed_out else output)
 

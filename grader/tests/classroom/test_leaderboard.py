@@ -82,6 +82,26 @@ def test_the_least_work_is_first_and_memory_decides_ties(tmp_path: Path, project
         assert board["not_ranked"] == []
 
 
+def test_who_has_no_place_anywhere_is_told_once(
+    tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]
+) -> None:
+    wrong = _graded(steps, "wrong", 10)
+    image = wrong.steps[0].images[1]
+    image.passed, image.wrong_share, image.outcome = False, 0.2, "wrong"
+    results: dict[str, Results | str] = {
+        "right": _graded(steps, "right"),
+        "wrong": wrong,
+        "fault": "the moon is in the way",
+        "later": "not graded",
+    }
+    document = _ranking(project, tmp_path, _class(tmp_path / "class", results))
+    assert [sorted(_others(board)) for board in document["steps"]] == [["fault", "later", "wrong"], ["fault", "later"]]
+    boards, nowhere = capsys.readouterr().out.split("Ranked in none of these steps\n")
+    assert "wrong: " in boards
+    assert "fault: " not in boards
+    assert nowhere.count("fault: ") == nowhere.count("later: ") == 1
+
+
 def test_only_right_pictures_are_ranked(
     tmp_path: Path, project: Project, steps: list[Step], capsys: pytest.CaptureFixture[str]
 ) -> None:

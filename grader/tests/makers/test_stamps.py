@@ -235,6 +235,7 @@ def test_only_files_of_tests_that_may_end_otherwise_are_run(small: Project, monk
     (tests / "test_b.py").write_text("import os\n" + body.format(True), encoding="utf-8")
     report, ran = _pytest(small, monkeypatch)
     assert (report.verdict, ran) == ("passed", {"test_b"}), report.detail
+    assert report.detail.startswith("1 passed; "), "it says how many tests there were"
     assert _pytest(small, monkeypatch)[1] == set()
     (small.root / "grader" / "src" / "raysteps" / "deep" / "keeper.py").write_text("x = 1\n", encoding="utf-8")
     report, ran = _pytest(small, monkeypatch)

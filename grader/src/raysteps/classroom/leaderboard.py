@@ -215,13 +215,29 @@ def _others(board: Board, *, anonymous: bool) -> list[str]:
     return [f"{other.name}: {other.reason}" for other in board.not_ranked]
 
 
-def print_board(console: Console, board: Board, *, anonymous: bool) -> None:
-    """The table, and below it who has no place."""
+def nowhere_ranked(boards: Sequence[Board]) -> Board | None:
+    """Who has no place on any of several boards, for the same reason: to be told once. None where nobody is."""
+    every = boards[0].not_ranked if len(boards) > 1 else []
+    found = [one for one in every if all(one in board.not_ranked for board in boards)]
+    return replace(boards[0], not_ranked=found) if found else None
+
+
+def print_nowhere_ranked(console: Console, found: Board, *, anonymous: bool) -> None:
+    """What `nowhere_ranked` found."""
+    console.print("Ranked in none of these steps", style="bold")
+    for line in _others(found, anonymous=anonymous):
+        console.print(f"  {printable(line)}", markup=False, highlight=False, soft_wrap=True)
+
+
+def print_board(console: Console, board: Board, *, anonymous: bool, told: Board | None = None) -> None:
+    """The table, and below it who has no place, without those that are `told` for all boards."""
+    if told is not None:
+        board = replace(board, not_ranked=[one for one in board.not_ranked if one not in told.not_ranked])
     if board.ranked:
         console.print(_table(board, console.width, anonymous=anonymous))
     else:
         console.print(f"{board.step.number} {board.step.title}: nobody is ranked", markup=False, highlight=False)
-    if not board.ranked and not board.not_ranked:
+    if not board.ranked and not board.not_ranked and told is None:
         console.print("  there is no submission", highlight=False)
     if board.not_ranked:
         console.print("Not ranked", style="bold")

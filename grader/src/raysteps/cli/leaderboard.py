@@ -6,7 +6,15 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.classroom.leaderboard import leaderboard, print_board, print_caption, rank, read_entries
+from raysteps.classroom.leaderboard import (
+    leaderboard,
+    nowhere_ranked,
+    print_board,
+    print_caption,
+    print_nowhere_ranked,
+    rank,
+    read_entries,
+)
 from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
@@ -52,8 +60,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     entered = read_entries(arguments.places)
     boards = [rank(entered, step) for step in steps]
     document = leaderboard(boards, anonymous=arguments.anonymous)
+    nowhere = nowhere_ranked(boards)
     for board in boards:
-        print_board(console, board, anonymous=arguments.anonymous)
+        print_board(console, board, anonymous=arguments.anonymous, told=nowhere)
+        console.print()
+    if nowhere is not None:
+        print_nowhere_ranked(console, nowhere, anonymous=arguments.anonymous)
         console.print()
     print_caption(console)
     if arguments.json is not None:

@@ -264,8 +264,14 @@ def _one(steps: list[Step], name: str, others: Sequence[Step]) -> Step:
         raise UsageError(of_another_part(steps, found[0]))
     if not found:
         meant = did_you_mean(name, [step.id for step in steps]) or "."
-        raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}")
+        parts = sorted({other.part for other in others})
+        more = "".join(f"; of part {part}, {_ids(others, part)}: {taken_in(steps, part)}" for part in parts)
+        raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}{more}")
     return found[0]
+
+
+def _ids(steps: Sequence[Step], part: int) -> str:
+    return ", ".join(step.id for step in steps if step.part == part)
 
 
 def _range(steps: list[Step], word: str, others: Sequence[Step]) -> list[Step]:
