@@ -64,11 +64,21 @@ def test_none_and_all_of_the_points_have_columns_of_their_own() -> None:
 
 
 def test_a_histogram_is_told_in_words_and_stays_within_its_drawing() -> None:
-    drawing = histogram(total_bars([3, 3, 95], 100), 640, 200)
+    drawing = histogram(total_bars([3, 3, 95], 100), 640, 200, "points")
     assert drawing.words == "0 to under 10: 2 submissions; 90 to 100: 1 submission"
     assert all(column.x >= 0 and column.x + column.width <= 640 for column in drawing.columns)
     assert max(column.height for column in drawing.columns) <= drawing.floor
-    assert histogram(total_bars([], 100), 640, 200).words == "nothing to show"
+    assert histogram(total_bars([], 100), 640, 200, "points").words == "nothing to show"
+
+
+def test_every_column_of_a_histogram_says_what_it_is_of() -> None:
+    bars = total_bars([3, 3, 95], 100)
+    assert [(bar.label, bar.end) for bar in bars[:2]] == [("0", "10"), ("10", "20")]
+    assert all(bar.label for bar in share_bars([0, 5, 10], 10))
+    page = class_page(document([submission("ann", {_FIRST: result(10, 10)})]), lambda name: None)
+    assert 'class="axis">points in all</text>' in page
+    assert 'class="axis">how much of the points</text>' in page
+    assert "How many of the 1 graded submissions have how many points" in page
 
 
 def test_a_divided_bar_is_filled_to_its_end() -> None:

@@ -1,8 +1,8 @@
 """A worker that builds nothing: it does what it reads in the student's file, and a command line that uses it.
 
 `// broken` does not build, `// wrong` fails, `// endless` has a test that was stopped, `// wait 0.5` takes time,
-`// wait check` as long as it may, `// crash` ends in the middle, `// program` starts one that never ends, `// hang` never
-answers."""
+`// wait check` as long as it may, `// crash` ends in the middle, `// program` starts one that never ends, `// hang`
+never answers."""
 
 import argparse
 import json

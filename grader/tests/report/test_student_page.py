@@ -27,7 +27,7 @@ from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import parts_of, rest_of, student_page, try_student_page, write_student_page
 from raysteps.report.terminal import print_details
 from raysteps.report.wording import total_words
-from raysteps.results.model import Feedback, HiddenResult, Results, TestResult
+from raysteps.results.model import Diagnosis, Feedback, HiddenResult, Results, TestResult
 from raysteps.results.store import write_results
 
 
@@ -63,6 +63,20 @@ def test_it_is_clean_and_what_students_wrote_stays_text(
     assert_no_sideways_scrolling(page)
     if width == 360:
         assert_fits_all_screens(page)  # once: it is a long page
+
+
+def test_code_in_a_message_is_set_as_code(steps: list[Step], tmp_path: Path) -> None:
+    document = _mixed(steps, tmp_path)
+    wrong = next(result for result in document.steps if result.id.startswith("03"))
+    wrong.messages = ["Keep nothing in a `static` variable; `a<b>` is no name, and one ` stays."]
+    wrong.diagnoses = [Diagnosis("mistake", "one", "`n` is not of unit length", "dark", "no", "Look at `n`.")]
+    page = student_page(document, tmp_path, steps)
+    for words in (
+        "in a <code>static</code> variable; <code>a&lt;b&gt;</code> is no name, and one ` stays.",
+        "<code>n</code> is not of unit length",
+        "Look at <code>n</code>.",
+    ):
+        assert words in page
 
 
 def test_samples_are_drawn_beside_their_density(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:

@@ -18,9 +18,10 @@ _SLOWEST = 5
 class Bar:
     """One column of a histogram."""
 
-    label: str  # under the column
+    label: str  # under the column; where there is an end, at its left edge
     words: str  # what falls into it, in words
     count: int
+    end: str = ""  # at its right edge
 
 
 @dataclass(frozen=True)
@@ -99,13 +100,14 @@ def total_bars(values: Sequence[float], top: float) -> list[Bar]:
             number(low),
             f"{number(low)} to {number(high)}" if index == last else f"{number(low)} to under {number(high)}",
             counts[index],
+            number(high),
         )
         for index, (low, high) in enumerate(edges)
     ]
 
 
-_SHARES = (("0", "no points"), ("", "up to a quarter"), ("", "up to a half"), ("", "up to three quarters"))
-_MAX = (("", "nearly all"), ("all", "all points"))
+_SHARES = (("none", "no points"), ("≤ ¼", "up to a quarter"), ("≤ ½", "up to a half"), ("≤ ¾", "up to three quarters"))
+_MAX = (("< all", "nearly all"), ("all", "all points"))
 
 
 def share_bars(values: Sequence[float], top: float) -> list[Bar]:
@@ -143,7 +145,7 @@ def times(document: ClassResults) -> Times | None:
 
 # Where the columns of a histogram stand in a drawing.
 
-_ABOVE, _BELOW = 18, 20  # for the numbers on the columns, and for the labels
+_ABOVE, _BELOW = 18, 40  # for the numbers on the columns; for the labels, and what they are of
 _GAP = 0.12  # of a column's room
 
 
@@ -156,6 +158,8 @@ class Column:
     width: float
     height: float
     middle: float
+    left: float  # edges of its room
+    right: float
     bar: Bar
 
 
@@ -167,10 +171,11 @@ class HistogramDrawing:
     height: int
     floor: float
     columns: Sequence[Column]
+    axis: str  # what stands below the columns
     words: str
 
 
-def histogram(bars: Sequence[Bar], width: int, height: int, noun: str = "submission") -> HistogramDrawing:
+def histogram(bars: Sequence[Bar], width: int, height: int, axis: str, noun: str = "submission") -> HistogramDrawing:
     """The highest column reaches the top."""
     floor = height - _BELOW
     most = max((bar.count for bar in bars), default=0) or 1
@@ -187,11 +192,13 @@ def histogram(bars: Sequence[Bar], width: int, height: int, noun: str = "submiss
                 round(room * (1 - _GAP), 2),
                 round(tall, 2),
                 round(room * (index + 0.5), 2),
+                round(room * index, 2),
+                round(room * (index + 1), 2),
                 bar,
             )
         )
     told = "; ".join(f"{bar.words}: {count(bar.count, noun)}" for bar in bars if bar.count)
-    return HistogramDrawing(width, height, floor, columns, told or "nothing to show")
+    return HistogramDrawing(width, height, floor, columns, axis, told or "nothing to show")
 
 
 @dataclass(frozen=True)

@@ -158,7 +158,7 @@ def _step(figures: StepFigures, mistakes: list[CommonMistake]) -> dict[str, obje
         "number": figures.id[:2],
         "parts": divided(counts, _PARTS),
         "counts": [(status, STATUSES[status], amount) for status, amount in counts if amount],
-        "drawing": histogram(figures.bars, _PARTS, 92),
+        "drawing": histogram(figures.bars, _PARTS, 112, "how much of the points"),
         "mistakes": [mistake for mistake in mistakes if mistake.step == figures.id],
     }
 
@@ -176,7 +176,7 @@ def _facts(document: ClassResults) -> dict[str, object]:
         "regular": regular,
         "bonus": bonus,
         "finals": finals,
-        "totals": histogram(total_bars(finals, regular + bonus), 640, 200),
+        "totals": histogram(total_bars(finals, regular + bonus), 640, 220, "points in all"),
         "times": times(document),
         "span": span,
         "isolations": sorted({one.isolation for one in document.submissions if one.isolation}),

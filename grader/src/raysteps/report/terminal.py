@@ -20,8 +20,8 @@ from raysteps.toolchain.kit_artifacts import ProgressCallback
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
 
 _TOGETHER = (
-    "together: is the step's first picture also right with your own earlier steps? The reference stands in for those that "
-    "are wrong or left out"
+    "together: is the step's first picture also right with your own earlier steps? The reference stands in for those "
+    "that are wrong or left out"
 )
 _VISIBLE = "tests and pictures with your own steps before each; your course may test hidden inputs, too"
 _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}

@@ -2,16 +2,14 @@
 
 import { element } from "./page-data.js";
 
-const pieces = (text) => text.split("`").map((piece, at) => (at % 2 ? make("code", {}, piece) : piece));
-
 /** Words flow, and keep `code` apart; what has columns, as pseudocode has, keeps them, and its lines. */
 function hint(text) {
   if (!/\S {2}|^ /m.test(text)) {
-    return make("p", {}, ...pieces(text));
+    return make("p", {}, ...coded(text));
   }
   const pre = make("pre", { class: "play-hint", tabindex: 0 });
   for (const line of text.split("\n")) {
-    const span = make("span", {}, ...pieces(line));
+    const span = make("span", {}, ...coded(line));
     span.style.setProperty("--hang", line.search(/\S|$/) + 2); // where it goes on, if there is no room for it
     pre.append(span);
   }

@@ -21,7 +21,7 @@ function problemsIn(text) {
 function otherWords({ severity, message }) {
   const start = message.slice(0, MOST_LETTERS);
   const known = data.words.inOtherWords.find(([pattern]) => severity === "error" && new RegExp(pattern).test(start));
-  return known ? [make("strong", {}, ` ${known[1]}`)] : [];
+  return known ? [make("strong", {}, ...coded(` ${known[1]}`))] : [];
 }
 
 /** `goTo` leads to its line; none where another file has it. */

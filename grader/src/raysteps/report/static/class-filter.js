@@ -85,7 +85,7 @@ class ClassFilter {
     this.chosen.hidden = this.mistake === null;
     if (this.mistake !== null) {
       const { step, title } = this.mistakes[this.mistake];
-      this.chosen.textContent = `Only those with this mistake in step ${step}: ${title}`;
+      this.chosen.textContent = `Only those with this mistake in step ${step}: ${title.replaceAll("`", "")}`;
     }
     for (const button of document.querySelectorAll("button[data-mistake]")) {
       button.setAttribute("aria-pressed", String(Number(button.dataset.mistake) === this.mistake));

@@ -17,6 +17,9 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** The parts of a message: what stands between back-quotes as code. */
+const coded = (text) => text.split(/`([^`\n]+)`/).map((piece, at) => (at % 2 ? make("code", {}, piece) : piece));
+
 function makeButton(label, attributes, pressed) {
   const button = make("button", { type: "button", ...attributes }, label);
   button.addEventListener("click", pressed);

@@ -12,7 +12,7 @@ function deskFacts(pairs) {
         make(
           "dl",
           { class: "facts" },
-          ...rows.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))),
+          ...rows.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, ...coded(text)))),
         ),
       ]
     : [];
@@ -23,12 +23,12 @@ function deskCheck(title, ...children) {
 }
 
 function deskSaid(text) {
-  return text ? [make("p", { class: "said" }, text)] : [];
+  return text ? [make("p", { class: "said" }, ...coded(text))] : [];
 }
 
 /** What explains a wrong step; a known mistake leads to the next one who made it. */
 function deskDiagnosis(found, onMistake) {
-  const parts = [make("p", { class: "cause" }, make("strong", {}, found.sure), ` ${found.title}`)];
+  const parts = [make("p", { class: "cause" }, make("strong", {}, found.sure), " ", ...coded(found.title))];
   parts.push(...deskFacts(found.lines));
   if (onMistake) {
     parts.push(makeButton("Next with this mistake", { "aria-keyshortcuts": "m" }, onMistake));

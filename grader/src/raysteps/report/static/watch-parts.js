@@ -5,7 +5,7 @@ function watchFacts(facts) {
   const told = facts.filter(([, text]) => text);
   const rows = told.flatMap(([label, text, mono]) => [
     make("dt", {}, label),
-    make("dd", {}, mono ? make("code", { class: "watch-lines" }, text) : text),
+    make("dd", {}, ...(mono ? [make("code", { class: "watch-lines" }, text)] : coded(text))),
   ]);
   return rows.length ? [make("dl", { class: "watch-facts" }, ...rows)] : [];
 }
@@ -15,7 +15,7 @@ function watchPanel(tone, ...children) {
 }
 
 function watchName(text) {
-  return make("p", { class: "watch-name" }, text);
+  return make("p", { class: "watch-name" }, ...coded(text));
 }
 
 /** Lines that keep their columns: wide ones scroll in their own box. */
@@ -27,7 +27,7 @@ function watchLines(text, label) {
 function watchMessage(message, tone) {
   const [first, ...lines] = message.replace(/^It does not build: /, "").split("\n");
   const source = lines.length ? [watchLines(lines.join("\n"), "lines of the source")] : [];
-  return watchPanel(tone, make("p", {}, first), ...source);
+  return watchPanel(tone, make("p", {}, ...coded(first)), ...source);
 }
 
 function watchMessages(state) {
@@ -51,7 +51,7 @@ function watchDiagnosis(found) {
 }
 
 function watchTest(test) {
-  const message = test.message ? [make("p", { class: "watch-lines" }, test.message)] : [];
+  const message = test.message ? [make("p", { class: "watch-lines" }, ...coded(test.message))] : [];
   const facts = [
     ["expected", test.expected, true],
     ["got", test.actual, true],
@@ -67,7 +67,7 @@ function watchHidden(item) {
     ["got", item.actual, true],
     ["again", item.again, true],
   ];
-  return watchPanel("bad", watchName(item.name), make("p", {}, item.message), ...watchFacts(facts));
+  return watchPanel("bad", watchName(item.name), make("p", {}, ...coded(item.message)), ...watchFacts(facts));
 }
 
 /** A heading with the numbers, then what failed. */
@@ -87,7 +87,7 @@ function watchKind(title, items, makeOne) {
 /** Sentences are broken where the panel ends; only pseudocode keeps its columns. */
 function watchHint(hint) {
   const inColumns = /\S {2,}\S/.test(hint.text);
-  const text = inColumns ? watchLines(hint.text, "the hint") : make("p", {}, hint.text);
+  const text = inColumns ? watchLines(hint.text, "the hint") : make("p", {}, ...coded(hint.text));
   return watchPanel("plain", watchName(`Hint ${hint.level} of ${hint.of}`), text);
 }
 
