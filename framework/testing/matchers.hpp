@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <string>
 
 #include "testing/string_makers.hpp"
@@ -42,7 +43,9 @@ public:
         return std::abs(glm::length(actual) - 1.0F) <= k_tolerance;
     }
 
-    [[nodiscard]] std::string describe() const override { return "is expected to have length 1"; }
+    [[nodiscard]] std::string describe() const override {
+        return "is expected to have length 1 within " + text(k_tolerance);
+    }
 };
 
 /// Points the same way: the angle between the two is near 0 (a factor does not matter, a sign does).
@@ -55,7 +58,10 @@ public:
         return glm::length(actual) > 0.0F && glm::distance(glm::normalize(actual), expected_) <= tolerance_;
     }
 
-    [[nodiscard]] std::string describe() const override { return "is expected to point along " + text(expected_); }
+    [[nodiscard]] std::string describe() const override {
+        return "is expected to point along " + text(expected_) + " within " + text(glm::degrees(tolerance_), 1) +
+               " degrees";
+    }
 
 private:
     glm::vec3 expected_;

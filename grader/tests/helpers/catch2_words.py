@@ -32,8 +32,8 @@ COMPARISONS = [
     ),
     (
         "mirror(d, n), IsUnitLength()",
-        "(2, 0, 0) is expected to have length 1",
-        "mirror(d, n) has length 1",
+        "(2, 0, 0) is expected to have length 1 within 0.0001",
+        "mirror(d, n) has length 1 within 0.0001",
         "mirror(d, n) = (2, 0, 0)",
     ),
     (

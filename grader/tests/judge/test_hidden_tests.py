@@ -12,7 +12,16 @@ from raysteps.common.process import Outcome
 from raysteps.common.vectors import Vector
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.judge.answers import Verdict
+from raysteps.judge.answers import (
+    Answer,
+    Verdict,
+    direction,
+    read_vector,
+    real,
+    unit_length,
+    vector,
+    words_of_vector,
+)
 from raysteps.judge.functions import functions_of
 from raysteps.judge.hidden_tests import make_cases, nearness, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
@@ -107,6 +116,29 @@ def test_one_kind_wrong(step: Step, plan: Plan) -> None:
     assert "inf" in result.given
     assert "nan" in result.actual
     assert results["to_byte"].share == 1
+
+
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [(math.inf, "is infinite"), (-math.inf, "is infinite"), (math.nan, "is NaN, which is no number")],
+)
+def test_a_number_that_is_none_is_said_to_be_that(number: float, said: str) -> None:
+    """Of such a direction nobody can say where it points, nor how long it is."""
+    right, odd = (0.0, 0.6, 0.8), (0.0, number, 0.8)
+    for problem in (
+        direction("the ray", right, odd),
+        unit_length("the ray", odd),
+        vector("the ray", right, odd),
+        real("the ray", 1.0, number),
+    ):
+        assert problem == f"the ray {said}"
+    answer = Answer(
+        read_vector, words_of_vector, lambda _, expected, actual: "" if expected == actual else "it is dark"
+    )
+    reference = answer.measured("f", {}, "0 0 1")
+    assert answer.verdict({}, reference, f"0 {number} 1").problem == f"a number in the answer {said}"
+    assert answer.verdict({}, reference, "0 5 1").problem == "it is dark"
+    assert answer.verdict({}, answer.measured("f", {}, "inf 0 1"), "inf 5 1").problem == "it is dark"
 
 
 def test_what_near_answers_earn_is_said(step: Step, plan: Plan) -> None:

@@ -109,6 +109,7 @@ class Answer(Generic[T]):
         try:
             actual = self.parse(actual_line)
             problem = self.problem(inputs, expected, actual)
+            problem = problem and (_no_number_said(problem, reference.line, actual_line) or problem)
             credit = self.credit(inputs, expected, actual) if problem else 1.0
             given = self.near(actual) if self.near is not None else None
             return Verdict(problem, shown, self.words(actual), credit, constant, right, given)
@@ -126,6 +127,25 @@ class Measured(Generic[T]):
     line: str
     value: T
     verdict: Verdict
+
+
+# A number that is none is what is wrong, whatever else follows from it: a direction of infinite length points nowhere.
+
+_NONE = {"nan": "NaN, which is no number", "inf": "infinite"}
+
+
+def no_number(what: str, *numbers: float) -> str:
+    """Whether one of them is infinite or NaN, in words."""
+    odd = "nan" if any(map(math.isnan, numbers)) else "inf" if any(map(math.isinf, numbers)) else ""
+    return f"{what} is {_NONE[odd]}" if odd else ""
+
+
+def _no_number_said(problem: str, right_line: str, line: str) -> str:
+    """The same of a whole answer, where the right one holds no such number and the problem does not tell."""
+    if type(problem) is not str or "NaN" in problem or "infinite" in problem:
+        return ""
+    odd = {word.removeprefix("-") for word in line.split()} & {*_NONE} - {*right_line.replace("-", "").split()}
+    return f"a number in the answer is {_NONE['nan' if 'nan' in odd else 'inf']}" if odd else ""
 
 
 def read_vector(tokens: TokenReader) -> Vector:
@@ -205,19 +225,19 @@ _DEGREES = 0.3
 
 def real(what: str, expected: float, actual: float, tolerance: Tolerance = SMALL) -> str:
     """NaN equals nothing, unless NaN is right."""
-    if math.isnan(actual):
-        return "" if math.isnan(expected) else f"{what} is NaN"
+    if math.isnan(actual) and math.isnan(expected):
+        return ""
     if expected == actual or abs(expected - actual) <= tolerance.of(expected) < math.inf:
         return ""
-    return f"{what} is wrong"
+    return no_number(what, actual) or f"{what} is wrong"
 
 
 def vector(what: str, expected: Vector, actual: Vector, tolerance: Tolerance = SMALL) -> str:
     """By the distance of the two."""
-    if any(math.isnan(x) for x in actual):
-        return f"{what} is NaN"
     gap = length(minus(expected, actual))
-    return "" if gap <= tolerance.of(length(expected)) < math.inf else f"{what} is wrong"
+    if gap <= tolerance.of(length(expected)) < math.inf:
+        return ""
+    return no_number(what, *actual) or f"{what} is wrong"
 
 
 def channels(what: str, expected: Vector, actual: Vector, tolerance: Tolerance = COLORS) -> str:
@@ -236,9 +256,9 @@ def number_answer(what: str, tolerance: Tolerance) -> Answer[float]:
 
 
 def unit_length(what: str, actual: Vector) -> str:
-    if any(math.isnan(x) for x in actual):
-        return f"{what} is NaN"
-    return "" if abs(length(actual) - 1) <= _UNIT else f"{what} does not have length 1"
+    if abs(length(actual) - 1) <= _UNIT:
+        return ""
+    return no_number(what, *actual) or f"{what} does not have length 1"
 
 
 def angle(a: Vector, b: Vector) -> float:
@@ -258,8 +278,9 @@ def direction(what: str, expected: Vector, actual: Vector, degrees: float = _DEG
     """Same direction, and length 1."""
     wrong_length = unit_length(what, actual)
     if not angle(expected, actual) <= degrees:
-        if wrong_length.endswith("NaN"):
-            return wrong_length
+        odd = no_number(what, *actual)
+        if odd:
+            return odd
         opposite = length(actual) > 0 and angle(expected, (-actual[0], -actual[1], -actual[2])) <= degrees
         return f"{what} points the other way" if opposite else f"{what} is wrong"
     return wrong_length
