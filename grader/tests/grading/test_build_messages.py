@@ -2,13 +2,22 @@
 
 import shutil
 from pathlib import Path
+from typing import cast
 
 import pytest
 
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
-from raysteps.grading.build_messages import IN_OTHER_WORDS, compile_message, forbidden_message, link_message
+from raysteps.grading.build_messages import (
+    IN_OTHER_WORDS,
+    compile_message,
+    forbidden_message,
+    link_message,
+    why_not_built,
+)
 from raysteps.sandbox.task import LimitHit, TaskResult
+from raysteps.toolchain.compile import Compiled
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 SOURCE = "#include <a>\n\nint one;\nint two = nope;\nint three;\n"
 
@@ -59,9 +68,11 @@ _WRONG = {
     "float Hit::twice() { return 2.0F * distance; }": "as the header declares it",
     "void f(float x) { if (x > 0.0F) { x = 0.0F; }\nvoid g() {}": "closing brace is missing",
     "void f(const glm::vec3& v) { v.x = 0.0F; }": "change a copy",
-    "void f(const glm::vec3& v) { nope(v); }": "",
+    "void f(const glm::vec3& v) { nope(v); }": "has not met this name above",
+    "Sphere f();": "has not met this name above",
+    '#include "intersection.h"': "paths begin below the kit's framework",
     "glm::vec3 f(const Hit& v) { return v * v; }": "",
-    "void f() { g() }": "",
+    "void f() { g() }": "has not met this name above",
     "int f(std::vector<glm::vec3> v) { return v * 2; }": "",
     "float f(float a, float b, float c) { return std::max(a, b, c); }": "for three write",
 }
@@ -145,6 +156,26 @@ def test_a_place_beyond_the_source_is_no_trouble(shadows: Step) -> None:
 def test_a_missing_function_is_named() -> None:
     output = "/usr/bin/ld: tracer.cpp:(.text+0x1): undefined reference to `raysteps::shadow_ray(int)'\n"
     assert link_message(ran(output)).startswith("It does not build: raysteps::shadow_ray(int) is missing.")
+
+
+@pytest.mark.parametrize(
+    ("source", "told"),
+    [
+        ("Color Specular(const Fill& fill) {\n}", "The file has Specular: is that meant to be specular?"),
+        ("Color specula(const Fill& fill) {\n}", "The file has specula: is that meant to be specular?"),
+        ("Color specular(int fill) {\n}", "The file has a specular, but with other arguments than the header's"),
+        ("Color other(int fill);", ""),
+    ],
+)
+def test_a_missing_function_is_told_as_the_header_has_it(shadows: Step, source: str, told: str) -> None:
+    vector = "glm::vec<3, float, (glm::qualifier)0>"
+    span = "std::span<raysteps::Light const, 18446744073709551615ul>"
+    name = f"raysteps::specular(raysteps::Fill const&, {span}, {vector} const&)"
+    compiled = Compiled(None, ran(""), missing=(name,))
+    first, *more = why_not_built(cast(BuiltKit, None), shadows, compiled, source).splitlines()
+    assert "specular(const Fill&, std::span<const Light>, const glm::vec3&) is missing" in first
+    assert told in "".join(more)
+    assert bool(more) == bool(told)
 
 
 @pytest.mark.parametrize(

@@ -88,3 +88,17 @@ def test_a_newcomer_is_told_what_together_means(steps: list[Step]) -> None:
     print_table(console, Results.of("ann", [result]))
     assert "│ right " in text.getvalue()
     assert "is the step's first picture also right with your own earlier steps?" in text.getvalue()
+
+
+def test_warnings_of_the_compiler_stand_above_what_went_wrong(steps: list[Step], tmp_path: Path) -> None:
+    result = StepResult(steps[1].id, "failed", 0.0, steps[1].points, steps[1].bonus, tests=[TestResult("a", False)])
+    said = "own.cpp:66:11: warning: 'nearer' is used uninitialized"
+    result.build_log = f"own.cpp: In function 'f':\n{said} [-Wuninitialized]\n 66 | x\n"
+    printed = {}
+    for status in ("failed", "passed"):
+        result.status = "passed" if status == "passed" else "failed"
+        console = Console(file=(text := io.StringIO()), width=200, color_system=None)
+        print_details(console, Results.of("ann", [result]), steps, tmp_path, str, own=True)
+        printed[status] = text.getvalue()
+    assert f"  warning  {said}\n" in printed["failed"]
+    assert said not in printed["passed"]

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from raysteps.common.text import join_and, printable, shorten
+from raysteps.common.text import join_and, nearest, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled
@@ -102,6 +102,15 @@ IN_OTHER_WORDS = (
         "It must stand here as the header declares it: the same arguments, with const and & where it has them.",
     ),
     (
+        r"No such file or directory$|file not found$|C1083:",
+        "The lines with #include that the stub has are enough: paths begin below the kit's framework or at steps/.",
+    ),
+    (
+        r"does not name a type|was not declared in this scope|has not been declared|unknown type name"
+        r"|use of undeclared identifier|C2065:|C2061:|C3861:",
+        "The compiler has not met this name above: is it spelled as where it is declared, and is that file included?",
+    ),
+    (
         r"function.definition is not allowed here|expected '}'(?: at end of input)?$|C1075:|C2601:",
         "A closing brace is missing somewhere above: each { needs one.",
     ),
@@ -141,6 +150,33 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
 
 
+# Names as a linker writes them, and as a header does.
+_AS_IN_A_HEADER = (
+    (re.compile(r"\braysteps::"), ""),
+    (re.compile(r"\bglm::vec<([234]), float, \(glm::qualifier\)0>"), r"glm::vec\1"),
+    (re.compile(r"\bstd::span<([\w:]{1,60}) const, 18446744073709551615ul>"), r"std::span<const \1>"),
+    (re.compile(r"\b([\w:]{1,60}(?:<[^<>]{1,60}>)?) const([&*])"), r"const \1\2"),
+)
+_MAX_DEFINED = 200  # functions that are compared
+_DEFINED = re.compile(r"\b(\w{1,60})\s?\([^;{}()]{0,500}\)\s?(?:const\s?)?\{")
+
+
+def _as_in_a_header(name: str) -> str:
+    for pattern, plain in _AS_IN_A_HEADER:
+        name = pattern.sub(plain, name)
+    return name
+
+
+def _in_its_place(names: tuple[str, ...], source: str) -> str:
+    """A line about what the file has that may be meant to be the first of these, or nothing."""
+    name = names[0].partition("(")[0].rpartition("::")[2]
+    defined = list(dict.fromkeys(_DEFINED.findall(source)))[:_MAX_DEFINED]
+    if name in defined:
+        return f"\nThe file has a {name}, but with other arguments than the header's, or outside of namespace raysteps."
+    other = next((one for one in defined if one.lower() == name.lower()), None) or nearest(name, defined)
+    return f"\nThe file has {other}: is that meant to be {name}? Upper and lower case differ, too." if other else ""
+
+
 def forbidden_message(names: tuple[str, ...], owners: dict[str, str]) -> str:
     """A step that asks for what is not its own."""
     for name in names:
@@ -166,7 +202,10 @@ def undefined_message(names: tuple[str, ...]) -> str:
 
 def twice_message(name: str) -> str:
     """A function that stands there twice."""
-    return f"It does not build: {name} is defined twice."
+    return (
+        f"It does not build: {name} is defined twice. Where two files have a helper of one name, put each into an "
+        "unnamed namespace: namespace { ... }."
+    )
 
 
 def is_of_a_linker(output: str) -> bool:
@@ -208,7 +247,8 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
     if compiled.unreadable:
         return "It does not build: its object holds more names than a step can have, or cannot be read."
     if compiled.undefined:
-        return undefined_message(compiled.undefined)
+        return undefined_message(tuple(map(_as_in_a_header, compiled.undefined)))
     if compiled.missing:
-        return missing_message(compiled.missing)
+        names = tuple(map(_as_in_a_header, compiled.missing))
+        return missing_message(names) + _in_its_place(names, source)
     return compile_message(step, source, compiled.ran)

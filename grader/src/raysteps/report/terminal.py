@@ -1,5 +1,6 @@
 """Prints results for people."""
 
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -38,6 +39,10 @@ def _points(result: StepResult) -> str:
 
 _INDENT = 13
 _LABEL = 10
+_MAX_WARNINGS = 3
+_WARNING = re.compile(
+    r"^(?P<text>[^\s:][^\n:]{0,200}:\d{1,7}:\d{1,7}: warning: .{1,300}?)(?: \[-W[\w=+-]{1,60}\])?$", re.M
+)
 
 
 def _print_hanging(console: Console, head: str, text: str) -> None:
@@ -161,6 +166,10 @@ def print_details(
         for message in result.messages:
             for line in message.splitlines():
                 _print_hanging(console, "  ", line)
+        if own and result.status not in ("passed", "does-not-build"):
+            warnings = dict.fromkeys(found["text"] for found in _WARNING.finditer(result.build_log))
+            for warning in list(warnings)[:_MAX_WARNINGS]:
+                _print_hanging(console, "  [yellow]warning[/yellow]  ", warning)
         once = SaidOnce(result.messages)
         for diagnosis in () if own else result.diagnoses:
             _print_diagnosis(console, diagnosis)
