@@ -156,7 +156,7 @@ def test_a_step_of_another_part_is_refused_by_name(kit: Project, settle: Callabl
     for choose in (chosen_step, lambda kit, name: chosen_steps(kit, [name])):
         with pytest.raises(UsageError, match=r"^step 08-refraction belongs to part 2; `parts = \[1, 2\]` in course"):
             choose(kit, name)
-    with pytest.raises(UsageError, match=r"there is no step '12'\. The steps are .*07-tone-mapping; of part 2, 08-"):
+    with pytest.raises(UsageError, match=r"there is no step '12'\. The steps are .*07-tone-mapping; part 2 has 08-"):
         chosen_steps(kit, ["12"])
     with pytest.raises(UsageError, match=r"08-refraction, .*`parts = \[1, 2\]` in course.toml takes it in$"):
         chosen_steps(kit, ["12"])

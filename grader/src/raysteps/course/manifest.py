@@ -265,7 +265,7 @@ def _one(steps: list[Step], name: str, others: Sequence[Step]) -> Step:
     if not found:
         meant = did_you_mean(name, [step.id for step in steps]) or "."
         parts = sorted({other.part for other in others})
-        more = "".join(f"; of part {part}, {_ids(others, part)}: {taken_in(steps, part)}" for part in parts)
+        more = "".join(f"; part {part} has {_ids(others, part)}, and {taken_in(steps, part)}" for part in parts)
         raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}{more}")
     return found[0]
 
