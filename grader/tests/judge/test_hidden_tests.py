@@ -265,6 +265,21 @@ def test_who_hangs_takes_no_time_from_the_next(step: Step, plan: Plan) -> None:
     assert results["to_byte"].share == 1
 
 
+def test_who_is_known_to_hang_gets_less_time_and_takes_none_from_others(step: Step, plan: Plan) -> None:
+    worker, given = FakeWorker(lambda f, numbers: _hang(f, numbers) if f == "tone_map" else right(f, numbers)), []
+
+    def ask(cases: bytes, seconds: float) -> TaskResult:
+        given.append((cases.split()[1].decode(), seconds))
+        return worker(cases, seconds)
+
+    def reference(cases: bytes, seconds: float) -> TaskResult:
+        return FakeWorker(right)(cases, seconds)
+
+    results = run_hidden_tests(step, plan, ask, reference, 1, 8.0, hung={"tone_map"})
+    assert given == [("tone_map", 2.0)] * 3 + [("to_byte", 8.0)]
+    assert {result.name: result.share for result in results} == {"tone_map": 0, "to_byte": 1}
+
+
 @pytest.mark.parametrize("seconds", [0.5, 3, 10, 60])
 @pytest.mark.parametrize("functions", [1, 3, 7])
 def test_time_for_every_function(seconds: float, functions: int) -> None:

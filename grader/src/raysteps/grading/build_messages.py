@@ -152,7 +152,6 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
 
 # Names as a linker writes them, and as a header does.
 _AS_IN_A_HEADER = (
-    (re.compile(r"\braysteps::"), ""),
     (re.compile(r"\bglm::vec<([234]), float, \(glm::qualifier\)0>"), r"glm::vec\1"),
     (re.compile(r"\bstd::span<([\w:]{1,60}) const, 18446744073709551615ul>"), r"std::span<const \1>"),
     (re.compile(r"\b([\w:]{1,60}(?:<[^<>]{1,60}>)?) const([&*])"), r"const \1\2"),

@@ -28,7 +28,7 @@ from raysteps.grading.images import (
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import TURN, GradingContext, Programs, StepGrader, answers_of, compile_steps
-from raysteps.grading.unit_tests import run_tests, set_aside
+from raysteps.grading.unit_tests import run_tests, set_aside, was_stopped
 from raysteps.grading.withhold import withhold
 from raysteps.images.render import Gate, Rendered, judge_picture
 from raysteps.judge.counterexamples import Examples
@@ -182,6 +182,7 @@ class HiddenStepGrader(StepGrader):
             settings.seed,
             limits.seconds,
             self._examples,
+            {name for test in self._result.tests if was_stopped(test) for name in kit.tests[self.step.id][test.name]},
         )
 
     def _render_scene(self, program: Program, scene: HiddenScene) -> _RenderedScene:

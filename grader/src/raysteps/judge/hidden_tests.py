@@ -1,7 +1,7 @@
 """Asks the functions of a step, compares with the reference, and says what is wrong."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import lru_cache
 from math import inf
 from statistics import median
@@ -338,15 +338,17 @@ def run_hidden_tests(
     seed: int,
     seconds: float | None = None,
     examples: Examples | None = None,
+    hung: Collection[str] = (),
 ) -> list[HiddenResult]:
     """One result for each function, whatever the student's worker does. `seconds`: the limit of one run of it.
-    Without `examples`, wrong cases are shown as they were asked."""
+    Without `examples`, wrong cases are shown as they were asked. `hung`: functions that did so before."""
     results = []
     budget = TimeBudget(step.seconds if seconds is None else seconds, len(plan.functions))
     for function_plan in plan.functions:
         function = functions_of(step.number)[function_plan.name]
         cases = make_cases(step, function_plan, seed)
         expected = reference_lines(reference, cases, function.name)
+        budget.known_to_hang = function.name in hung
         replies = ask_worker(student, cases, budget)
         judged = [judge_reply(function, *three) for three in zip(cases, expected, replies.replies, strict=True)]
         result = _result(step, function_plan, judged, seed, examples)

@@ -27,7 +27,7 @@ _AFTER_HANGS = 0.25  # of the limit
 class TimeBudget:
     """Each function is asked once at least, whatever those before it took: a function that hangs silences nobody.
     Who ran into a limit twice, on time or on memory, may do so in all that follows, and gets less time from then
-    on."""
+    on. Who is known to hang gets less from the beginning, and takes nobody's patience."""
 
     def __init__(self, seconds: float, functions: int) -> None:
         self._limit = seconds
@@ -35,6 +35,7 @@ class TimeBudget:
         self._left = _STEP_FACTOR * seconds
         self._to_come = functions
         self._stops = 0
+        self.known_to_hang = False  # the function that is asked next
 
     def next_function(self) -> float:
         """Seconds of its first run."""
@@ -44,12 +45,12 @@ class TimeBudget:
     def next_run(self) -> float:
         """Seconds of one more run of the same function; 0 when there is no time left for it."""
         free = self._left - self._to_come * self._short
-        most = min(free, self._short if self._stops >= PATIENT_STOPS else self._limit)
+        most = min(free, self._short if self.known_to_hang or self._stops >= PATIENT_STOPS else self._limit)
         return most if most >= self._short else 0.0
 
     def spend(self, seconds: float, *, stopped: bool) -> None:
         self._left -= seconds
-        self._stops += stopped
+        self._stops += stopped and not self.known_to_hang
 
 
 Ask: TypeAlias = Callable[[bytes, float], TaskResult]  # the worker's stdin, and how many seconds it may take
