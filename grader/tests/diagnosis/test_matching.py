@@ -1,5 +1,6 @@
 """Matching on made-up answers: the same, different, ties and noise."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +17,7 @@ from raysteps.images.compare import Pixels
 from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hits import NOTHING_FOUND
 from raysteps.judge.random_source import RandomSource
+from raysteps.judge.statistics import off
 
 pytestmark = pytest.mark.portable
 
@@ -57,15 +59,44 @@ def test_answers_by_chance_that_are_spread_in_another_way_are_not_alike() -> Non
     function = functions_of("12")["unit_disk"]
     case = Case("unit_disk", "many points", {})
 
-    def similarity(*mine: int) -> float:
-        words = "too many points lie near the middle"
-        said = ObservedAnswers("1 2", words, spread=(1024, 512, 256, 256))
-        return answer_similarity(function, case, "0 0", said, ObservedAnswers("3 4", words, spread=mine))
+    def similarity(*mine: int, goes_round: bool = False) -> float:
+        said, other = (
+            ObservedAnswers(line, "too many points lie near the middle", spread=spread, goes_round=goes_round)
+            for line, spread in (("1 2", (1024, 512, 256, 256)), ("3 4", mine))
+        )
+        return answer_similarity(function, case, "0 0", said, other)
 
     assert similarity(1000, 530, 260, 258) > 0.7
-    assert similarity(256, 512, 256, 1024) > 0.7, "the same, turned"
-    assert similarity(2048, 0, 0, 0) == 0
+    assert similarity(256, 256, 512, 1024) > 0.7, "the same, mirrored"
+    assert similarity(256, 1024, 512, 256) == 0, "at another place"
+    assert similarity(256, 1024, 512, 256, goes_round=True) > 0.7, "the same, turned"
+    assert similarity(1024, 0, 768, 256, goes_round=True) == 0
+    assert similarity(2048, 0, 0, 0, goes_round=True) == 0
     assert similarity() == 0
+
+
+def test_answers_by_chance_that_are_wrong_by_another_factor_are_not_alike() -> None:
+    """The same words are said of light without its cosine and of light without its colour."""
+    function = functions_of("14")["scatter_metal"]
+    case = Case("scatter_metal", "any angle and roughness", {})
+
+    def similarity(*mine: float) -> float:
+        said = ObservedAnswers("1 2", "the weight is wrong", times=(0.5, 1.0, 2.0))
+        return answer_similarity(function, case, "0 0", said, ObservedAnswers("3 4", "the weight is wrong", times=mine))
+
+    assert similarity(0.52, 0.98, 2.1) > 0.7
+    assert similarity(0.52, 0.8, 2.1) == 0
+    assert similarity(0.5, 1.0, 3.0) == 0
+    assert similarity() == 0
+
+
+def test_how_many_times_too_large_numbers_are_does_not_hang_on_their_order() -> None:
+    one = np.random.default_rng(1).uniform(0.5, 2, 256)
+    found, other = off("it is wrong", one), off("it is wrong", one[::-1])
+    assert found == "it is wrong"
+    assert found.times == other.times
+    assert found.times != off("it is wrong", 2 * one).times
+    assert all(map(math.isfinite, off("it is wrong", np.array([np.nan, np.inf, 1.0])).times))
 
 
 def test_the_same_numbers_are_the_same_answer() -> None:
@@ -138,6 +169,22 @@ def test_a_mistake_further_down_is_not_taken_for_one_upstream() -> None:
     known = {_mutant("up"): {"mirror": spoilt, "specular": spoilt}, _mutant("down", "specular"): {"specular": spoilt}}
     (named,) = name_mistakes(_matched({"mirror": {}, "specular": spoilt}, known))
     assert named.mutant.id == "down"
+
+
+def test_what_calls_a_function_that_is_wrong_in_another_way_names_no_mistake_of_it() -> None:
+    """Of whatever spoils the caller the same words are said."""
+    spoilt = _wrong("4 5 6", *range(30))
+    known = {_mutant("up"): {"mirror": _wrong("6 6 6", *range(30)), "specular": spoilt}}
+    for own, names in (("7 8 9", []), ("6 6 6", ["up"])):
+        mine = {"mirror": _wrong(own, *range(30)), "specular": spoilt}
+        assert [one.mutant.id for one in name_mistakes(_matched(mine, known))] == names
+
+
+def test_who_always_gives_the_same_answer_has_not_made_a_mistake_that_does_not() -> None:
+    spoilt = _wrong("4 5 6", *range(30))
+    known = {_mutant("up"): {"mirror": _wrong("0 0 0", *range(30)), "specular": spoilt}}
+    mine = {"mirror": _wrong("0 0 0", *range(_AMOUNT)), "specular": spoilt}
+    assert not name_mistakes(_matched(mine, known))
 
 
 def test_what_another_function_spoils_is_no_mistake_of_its_own() -> None:
@@ -280,7 +327,10 @@ def test_a_picture_of_one_colour_has_no_name() -> None:
 
 def test_fingerprints_come_back_from_their_file(tmp_path: Path) -> None:
     answers = {
-        "mirror": {3: ObservedAnswers("1 2 3", "it is wrong", spread=(3, 1)), 4: ObservedAnswers("", "", known=False)}
+        "mirror": {
+            3: ObservedAnswers("1 2 3", "it is wrong", spread=(3, 1), times=(0.5,)),
+            4: ObservedAnswers("", "", known=False),
+        }
     }
     known = {
         "one": MutantFingerprint(answers, {"lit": np.ones((2, 3, 3), dtype=np.uint8)}),

@@ -18,7 +18,7 @@ from raysteps.judge.hidden_tests import make_cases, reference_lines
 from raysteps.judge.octrees import TREE
 from raysteps.judge.plan import Plan
 from raysteps.judge.protocol import ProtocolError
-from raysteps.judge.statistics import Uneven
+from raysteps.judge.statistics import DECILES, Off, Uneven
 from raysteps.judge.worker import Ask, Reply, TimeBudget, ask_worker, reference_answers
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -33,13 +33,16 @@ _LONGEST = 6000  # characters; of a longer answer its hash will do
 @dataclass(frozen=True)
 class ObservedAnswers:
     """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked. `boxes`: of a tree.
-    `spread`: how many of the numbers drawn by chance fell into each bar, where that is the problem."""
+    `spread`: how many of the numbers drawn by chance fell into each bar, where that is the problem, and whether they go
+    round. `times`: how many times what they should be the numbers are, where they are drawn by chance or means."""
 
     line: str
     problem: str
     known: bool = True
     boxes: int = 0
     spread: tuple[int, ...] = ()
+    goes_round: bool = False
+    times: tuple[float, ...] = ()
 
 
 Answers: TypeAlias = Mapping[
@@ -88,7 +91,9 @@ def _said(function: Function, case: Case, right: str, reply: Reply) -> ObservedA
     long = len(reply.line) > _LONGEST
     line = "#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line
     spread = tuple(problem.histogram.counts) if isinstance(problem, Uneven) else ()
-    return ObservedAnswers(line, str(problem), boxes=_boxes(function, reply.line), spread=spread)
+    goes_round = isinstance(problem, Uneven) and problem.goes_round
+    times = problem.times if isinstance(problem, Off) else ()
+    return ObservedAnswers(line, str(problem), True, _boxes(function, reply.line), spread, goes_round, times)
 
 
 def _boxes(function: Function, line: str) -> int:
@@ -249,16 +254,32 @@ _SPREAD = 0.12  # of all numbers: so many may lie in other bars
 _SPREAD_OF_CHANCE = 2.0  # deviations of what chance moves there
 
 
-def _spread_alike(one: Sequence[int], other: Sequence[int]) -> bool:
-    """Whether the bars of two histograms are the same, in any order: a frame may be turned, an angle run backwards.
-    The same words are said of points that crowd a little and of points that all lie at one place."""
+def _spread_alike(one: Sequence[int], other: Sequence[int], *, goes_round: bool) -> bool:
+    """Whether the bars of two histograms are the same, in one order or the other, and of angles from any of them on: a
+    frame may be turned or mirrored. The same words are said of points that crowd a little and of points that all lie at
+    one place."""
     if not one or not other:
         return len(one) == len(other)
-    mine, theirs = (np.sort(np.array(counts) / max(sum(counts), 1)) for counts in (one, other))
+    mine, theirs = (np.array(counts) / max(sum(counts), 1) for counts in (one, other))
     if len(mine) != len(theirs):
         return False
-    moved = float(np.abs(mine - theirs).sum()) / 2
+    starts = range(len(theirs) if goes_round else 1)
+    turned = (np.roll(way, start) for way in (theirs, theirs[::-1]) for start in starts)
+    moved = min(float(np.abs(mine - bars).sum()) / 2 for bars in turned)
     return moved <= _SPREAD + _SPREAD_OF_CHANCE / math.sqrt(max(min(sum(one), sum(other)), 1))
+
+
+_TIMES_OF_CHANCE = 0.01  # so far may two means or frequencies lie from each other
+_TIMES_ALIKE = 0.15  # and farther where they lie far from 1, by so much of that
+
+
+def _times_alike(one: Sequence[float], other: Sequence[float]) -> bool:
+    """Whether numbers are wrong by as much: the same words are said of what lacks a factor and of what has another."""
+    if len(one) != len(other):
+        return False
+    far = max((abs(times - 1) for times in (*one, *other)), default=0.0)
+    slack = _TIMES_ALIKE * far + (_TIMES_OF_CHANCE if len(one) < DECILES else 0.0)
+    return all(abs(a - b) <= slack for a, b in zip(one, other, strict=True))
 
 
 def answer_similarity(
@@ -272,7 +293,8 @@ def answer_similarity(
         return 0.0  # one of them gave no answer
     if function.answer in (TREE, BVH):  # everybody divides space in another way
         return 1.0 if same_problem and _as_many(mistake.boxes, mine.boxes) else 0.0
-    same_problem = same_problem and _spread_alike(mistake.spread, mine.spread)
+    same_problem = same_problem and _spread_alike(mistake.spread, mine.spread, goes_round=mine.goes_round)
+    same_problem = same_problem and _times_alike(mistake.times, mine.times)
     if mistake.line.startswith("#") or mine.line.startswith("#"):
         return 1.0 if same_problem else 0.0
     if mistake.line.startswith("threw") or mine.line.startswith("threw"):

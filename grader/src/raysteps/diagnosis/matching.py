@@ -19,9 +19,9 @@ _GOOD_WITH_PICTURES = 0.55  # of the cases, where the mistake explains all pictu
 GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture without a tree is explained
 _NEVER = 2.0  # where, besides, the mistake would draw other pictures
 _GOOD_AGAINST_PICTURES = 0.85  # of the cases, where pictures are wrong and the mistake explains none
-_ANOTHER = 0.2  # of the cases of its own function, or of a picture: below, that is wrong in another way; the same words
-# alone give 0.25
-_NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures name
+_ANOTHER = 0.2  # of a picture, or of cases where wrong answers hardly differ: below, that is wrong in another way
+_NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures, or those that call
+# that function, name; the same words alone give 0.25
 _FEWEST_CASES = 2.0
 _FEWEST_WEAK = 4.0  # where wrong answers hardly differ
 _FEWEST_PIXELS = 12
@@ -42,6 +42,13 @@ class Agreement:
     weak: bool = False
     empty: float = 0.0
     constant: bool = False
+
+    @property
+    def least_alike(self) -> float:
+        """The score below which the student's function, if the mistake sits in it, is wrong in another way."""
+        if self.weak:
+            return _ANOTHER
+        return GOOD_WEAK if self.constant else _NOT_AGAINST
 
     @property
     def score(self) -> float:
@@ -98,10 +105,10 @@ class Match:
         return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else GOOD
 
     def is_another(self) -> bool:
-        """Whether the function in which the mistake sits is wrong in another way. Or it is right, and those that the
-        mistake explains only find nothing."""
+        """Whether the function in which the mistake sits is wrong in another way, whatever those that call it look
+        like. Or it is right, and those that the mistake explains only find nothing."""
         own = self.functions.get(self.mutant.function)
-        if own is not None and own.score < _ANOTHER:
+        if own is not None and own.score < own.least_alike:
             return True
         explained = self.explains().keys() & self.functions.keys()
         return self.denied and all(self.functions[name].empty > _MOSTLY_EMPTY for name in explained)

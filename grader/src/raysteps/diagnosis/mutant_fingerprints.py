@@ -72,7 +72,7 @@ def read_known(path: Path) -> Known | None:
         mistake: MutantFingerprint(
             {
                 function: {
-                    int(number): ObservedAnswers(**said | {"spread": tuple(said["spread"])})
+                    int(number): ObservedAnswers(**said | {name: tuple(said[name]) for name in ("spread", "times")})
                     for number, said in wrong.items()
                 }
                 for function, wrong in functions.items()

@@ -7,7 +7,7 @@ import numpy as np
 
 from raysteps.judge.protocol import ProtocolError, TokenReader, Whole, f32, text, vector_words
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers
+from raysteps.judge.statistics import Numbers, off
 
 _MOST = 40_000
 _UNIT = 1e-4
@@ -98,6 +98,5 @@ def unit_problem(directions: Numbers) -> str:
     """Whether all are numbers, and of unit length."""
     if not np.isfinite(directions).all():
         return "a direction is NaN"
-    if not (np.abs(np.linalg.norm(directions, axis=1) - 1) <= _UNIT).all():
-        return "a direction does not have length 1"
-    return ""
+    lengths = np.linalg.norm(directions, axis=1)
+    return "" if (np.abs(lengths - 1) <= _UNIT).all() else off("a direction does not have length 1", lengths)

@@ -15,7 +15,7 @@ from raysteps.common.vectors import Vector
 from raysteps.judge.answers import Tolerance
 from raysteps.judge.protocol import Inputs, ProtocolError, Real, TokenReader, Whole, f32, rounded, vector_words
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import DEVIATIONS, Numbers
+from raysteps.judge.statistics import DEVIATIONS, Numbers, off
 
 BATCHES = 256  # as in the worker
 _PRECISION_OF_A_BIAS = 11.5  # DEVIATIONS, as a t-test asks for them, and three more to be sure
@@ -113,7 +113,8 @@ def estimates_problem(
         return "the same stream gave another answer; all numbers must come from it"
     for channel in range(3):
         if not has_right_mean(actual.batches[:, channel], mean[channel]):
-            return f"{what} is wrong on average, {_side(float(actual.mean[channel]), mean[channel])}"
+            words = f"{what} is wrong on average, {_side(float(actual.mean[channel]), mean[channel])}"
+            return off(words, np.divide(actual.mean, mean, out=np.zeros(3), where=np.array(mean) != 0))
     if actual.work(mean) > most_work * expected.work(mean) + _NO_NOISE:
         return f"{what} is right on average, but noisier than it need be"
     return ""

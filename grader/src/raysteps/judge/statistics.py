@@ -134,16 +134,39 @@ _BARS = 16
 
 
 class Uneven(str):
-    """A problem of how numbers are spread, with their histogram."""
+    """A problem of how numbers are spread, with their histogram. `goes_round`: angles, counted from anywhere."""
 
     histogram: Histogram
+    goes_round: bool
 
 
-def uneven(problem: str, over: str, shares: Numbers, others: Numbers | None = None) -> Uneven:
+def uneven(
+    problem: str, over: str, shares: Numbers, others: Numbers | None = None, *, goes_round: bool = False
+) -> Uneven:
     """Of numbers from 0 to 1, which should be even, or spread as others are."""
     counts, _ = np.histogram(shares, _BARS, (0.0, 1.0))
     own = np.full(_BARS, 1.0) if others is None else np.histogram(others, _BARS, (0.0, 1.0))[0]
     expected = [round(float(part), 2) for part in own * len(shares) / own.sum()]
     found = Uneven(problem)
     found.histogram = Histogram(over, counts.tolist(), expected)
+    found.goes_round = goes_round
+    return found
+
+
+DECILES = 9
+_FAR = 1e6
+
+
+class Off(str):
+    """A problem of numbers that are not what they should be, and how many times that they are."""
+
+    times: tuple[float, ...]
+
+
+def off(problem: str, times: Numbers) -> Off:
+    """Of a few such quotients all are kept, of more the deciles: samples come in any order."""
+    found = Off(problem)
+    numbers = np.clip(np.nan_to_num(times, nan=-_FAR), -_FAR, _FAR)
+    kept = numbers if len(numbers) < DECILES else np.quantile(numbers, np.arange(1, DECILES + 1) / (DECILES + 1))
+    found.times = tuple(float(f"{one:.4g}") for one in kept)
     return found

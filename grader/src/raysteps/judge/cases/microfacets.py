@@ -11,7 +11,16 @@ import numpy as np
 
 from raysteps.common.vectors import Vector
 from raysteps.judge.draws import unit_problem
-from raysteps.judge.statistics import Numbers, happens_so_often, has_mean, have_one_mean, is_like, is_uniform, uneven
+from raysteps.judge.statistics import (
+    Numbers,
+    happens_so_often,
+    has_mean,
+    have_one_mean,
+    is_like,
+    is_uniform,
+    off,
+    uneven,
+)
 
 
 def units(v: Numbers) -> Numbers:
@@ -131,7 +140,8 @@ def rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, e
     count = len(normals) + nothing
     lost = _TRIES - len(own)
     if not happens_so_often(nothing, count, lost, _TRIES):
-        return f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
+        words = f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
+        return off(words, np.array([nothing * _TRIES / (count * max(lost, 1))]))
     mine = _seen_shares(normals, view[0], alpha)
     if not have_one_mean(mine[:, 0], own[:, 0]):
         return uneven(_ASKEW, _ACROSS, mine[:, 0], own[:, 0])

@@ -45,7 +45,7 @@ from raysteps.judge.protocol import (
 )
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import MOST_ASKED, MisScript, PathHit, PathScript, Scatter
-from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform, uneven
+from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform, off, uneven
 
 # Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
 # compared with the reference's. Seen from above the tip of such a direction lies anywhere in the unit disk, all places
@@ -78,7 +78,7 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     heights, turns = shares[:, 0], shares[:, 1]
     if not (is_uniform(turns, 4 * bins) and has_mean(turns, 0.5, math.sqrt(1 / 12))):
         problem = "directions do not come evenly from all sides around the normal"
-        return uneven(problem, "directions around the normal, side by side", turns)
+        return uneven(problem, "directions around the normal, side by side", turns, goes_round=True)
     over = "directions from steep to level, in rings that should get the same number of them"
     if not has_mean(heights, 0.5, math.sqrt(1 / 12)):
         return uneven(f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often", over, heights)
@@ -191,11 +191,12 @@ def _pdf_problem(pdfs: Numbers, cosines: Numbers) -> str:
         return ""
     if np.ptp(pdfs) == 0 and pdfs[0] != 0:
         of_all = abs(pdfs[0] - 1 / (2 * math.pi)) < 1e-4
-        return f"the pdf is {'that of directions that are all equally likely' if of_all else 'the same for all'}"
+        words = "that of directions that are all equally likely" if of_all else "the same for all"
+        return off(f"the pdf is {words}", pdfs[:1])
     for words, factor in _WRONG_PDFS.items():
         if np.allclose(pdfs, factor * densities, rtol=2e-3, atol=1e-9):
             return words
-    return _OTHER_PDF
+    return off(_OTHER_PDF, pdfs / densities)
 
 
 def _weight_problem(weights: Numbers, fill: Fill, cosines: Numbers) -> str:
@@ -210,7 +211,7 @@ def _weight_problem(weights: Numbers, fill: Fill, cosines: Numbers) -> str:
         wrong = factor * cosines[steep, np.newaxis] ** power * albedo
         if steep.any() and np.allclose(weights[steep], wrong, rtol=2e-3, atol=0.0):
             return words
-    return "the weight is not f cos / pdf"
+    return off("the weight is not f cos / pdf", weights[steep].sum(axis=1) / albedo.sum())
 
 
 def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
@@ -314,7 +315,7 @@ _SURVIVAL = Function(
 # Whole paths. What a scene's rays meet is scripted. As long as no roulette is played one path gives the exact light;
 # with it, the mean of many is compared with the sum that the script makes certain.
 
-_SURE = 3  # bounces before roulette, as in the contract
+SURE = 3  # bounces before roulette, as in the contract
 _BLACK: Vector = (0.0, 0.0, 0.0)
 _ON_THE_HIT, _AT_THE_HIT = 5e-5, 0.02  # from the surface, in world units
 _DEGREES = 0.5
@@ -400,7 +401,7 @@ def length_problem(expected: Estimates, actual: Estimates) -> str:
     most = _SLACK + DEVIATIONS * _SPREAD * math.sqrt(1 / actual.count + 1 / expected.count)
     if abs(share - 1) <= most:
         return ""
-    return f"paths {'go on for too long' if share > 1 else 'end too soon'}"
+    return off(f"paths {'go on for too long' if share > 1 else 'end too soon'}", np.array([share]))
 
 
 ManyProblem = Callable[[Inputs, Estimates, Estimates], str]
@@ -548,7 +549,7 @@ def _late(draw: RandomSource, bounces: int = _LATE) -> PathScript:
 
 def _dark_wall(draw: RandomSource) -> PathScript:
     """The wall behind which roulette begins takes most of the light: so few paths go on from just there."""
-    walls = _walls(draw, [*[(0.95, 0.98)] * _SURE, (0.1, 0.15), (0.3, 0.5)])
+    walls = _walls(draw, [*[(0.95, 0.98)] * SURE, (0.1, 0.15), (0.3, 0.5)])
     return PathScript(draw.color(0.5, 1.0), goes_on=False, hits=walls)
 
 

@@ -41,7 +41,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
-from raysteps.judge.statistics import Numbers, has_mean, is_uniform, uneven
+from raysteps.judge.statistics import Numbers, has_mean, is_uniform, off, uneven
 
 # Many answers to one question: rows of numbers, and what the first u gave once more.
 
@@ -148,7 +148,7 @@ def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
     if not is_uniform(along, 2 * bins):
         return uneven(places.uneven, places.way, along)
     if not (has_mean(around, 0.5, deviation) and is_uniform(around, 2 * bins)):
-        return uneven(places.around, places.way_around, around)
+        return uneven(places.around, places.way_around, around, goes_round=places is not _TRIANGLE)
     return "" if is_uniform(shares, bins) else "the two random numbers have to do with each other"
 
 
@@ -256,8 +256,9 @@ def _cap_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     broken = _broken(inputs, actual, "a direction")
     if broken:
         return broken
-    if float(np.abs(np.linalg.norm(actual.rows, axis=1) - 1).max()) > 1e-3:
-        return "a direction does not have length 1"
+    lengths = np.linalg.norm(actual.rows, axis=1)
+    if float(np.abs(lengths - 1).max()) > 1e-3:
+        return off("a direction does not have length 1", lengths)
     height = real_of(inputs, "height")
     found = _heights(actual.rows)
     if float(found.max()) > height * (1 + 1e-3) + 1e-12 + (1e-6 if height > 0.01 else 0.0):
@@ -340,7 +341,9 @@ def _normal_problem(expected: Numbers, actual: _Draws) -> str:
     if float(gaps.max()) <= 5e-3:
         return ""
     opposite = np.linalg.norm(actual.rows[:, _NORMAL] + expected, axis=1)
-    return "a normal points to the dark side" if float(opposite.max()) <= 5e-3 else "a normal is wrong"
+    if float(opposite.max()) <= 5e-3:
+        return "a normal points to the dark side"
+    return off("a normal is wrong", (actual.rows[:, _NORMAL] * expected).sum(axis=1))
 
 
 def _density_problem(expected: Numbers, actual: _Draws) -> str:
@@ -361,8 +364,8 @@ def _density_problem(expected: Numbers, actual: _Draws) -> str:
         kind = f"pdf is too {side}, by the same factor for all points"
         share = f"{factor:.2g}"
         tells = share != "1" and 0.01 <= abs(factor) < 99
-        return counted(kind, f"it is {share} times what it should be") if tells else kind
-    return f"pdf is too {side}, and not by the same factor for all points"
+        return counted(kind, f"it is {share} times what it should be") if tells else off(kind, ratios)
+    return off(f"pdf is too {side}, and not by the same factor for all points", ratios)
 
 
 def _area_density(inputs: Inputs, area: float, normal: Numbers, actual: _Draws) -> Numbers:
@@ -400,10 +403,10 @@ def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     of_b = np.cross(spokes, c - a) @ normal / doubled
     of_c = np.cross(b - a, spokes) @ normal / doubled
     size = math.sqrt(doubled)
-    off = float(np.abs(spokes @ normal).max()) > 1e-3 * size
+    aside = float(np.abs(spokes @ normal).max()) > 1e-3 * size
     beyond = min(float(of_b.min()), float(of_c.min()), float((1 - of_b - of_c).min())) < -1e-3
     away = np.maximum(of_b + of_c, 1e-12)
-    position = _where("a point lies off the triangle", spokes) if off or beyond else ""
+    position = _where("a point lies off the triangle", spokes) if aside or beyond else ""
     position = position or _evenness(inputs, _TRIANGLE, _shares(away**2, of_c / away))
     density = _density_problem(_area_density(inputs, doubled / 2, normal, actual), actual)
     return position, _normal_problem(normal, actual), density
@@ -415,8 +418,8 @@ def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]
     spokes = (actual.rows[:, _POSITION] - np.array(vec_of(inputs, "center"))) / radius
     of_x, of_y = spokes @ x, spokes @ y
     squares = of_x**2 + of_y**2
-    off = float(np.abs(spokes @ z).max()) > 1e-3 or float(squares.max()) > 1 + 2e-3
-    position = _where("a point lies off the disk", spokes) if off else ""
+    aside = float(np.abs(spokes @ z).max()) > 1e-3 or float(squares.max()) > 1 + 2e-3
+    position = _where("a point lies off the disk", spokes) if aside else ""
     position = position or _evenness(inputs, _DISK, _shares(squares, _turns(of_x, of_y)))
     density = _density_problem(_area_density(inputs, math.pi * radius * radius, z, actual), actual)
     return position, _normal_problem(z, actual), density
@@ -615,12 +618,12 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
         origin = ""
     lengths = np.linalg.norm(directions, axis=1)
     if float(np.abs(lengths - 1).max()) > 1e-3:
-        return origin, "a direction does not have length 1"
+        return origin, off("a direction does not have length 1", lengths)
     sharp = np.array(add(ray.origin, ray.direction, focus / dot(ray.direction, frame.forward)))
     ways = sharp - origins
     wanted = ways / np.linalg.norm(ways, axis=1)[:, None]
-    off = float(np.linalg.norm(directions - wanted, axis=1).max())
-    return origin, "" if off < 2e-3 else "rays do not meet in the plane of focus"
+    gap = float(np.linalg.norm(directions - wanted, axis=1).max())
+    return origin, "" if gap < 2e-3 else "rays do not meet in the plane of focus"
 
 
 def _lens_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
