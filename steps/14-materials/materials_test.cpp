@@ -326,6 +326,7 @@ TEST_CASE("clear glass mirrors some paths and refracts the others", "[14-materia
     many_at_glass(k_count, hit, [&](const std::optional<ScatterSample>& sample) {
         REQUIRE(sample);
         REQUIRE(sample->specular);
+        REQUIRE(sample->pdf == 1.0F);
         REQUIRE_THAT(sample->weight, IsNear(k_white));
         if (sample->direction.z > 0.0F) {
             ++mirrored;

@@ -296,6 +296,7 @@ TEST_CASE("emission_weight: with that of direct_light it adds up to 1", "[15-mis
 
 TEST_CASE("emission_weight: in a mirror lamps count in full", "[15-mis][emission_weight]") {
     CHECK(emission_weight({.pdf = 1.0F, .specular = true}, 5.0F) == 1.0F);
+    CHECK(emission_weight({.pdf = 2.0F, .specular = true}, 5.0F) == 1.0F);
 }
 
 TEST_CASE("mis_path_light: a ray that meets nothing brings the background", "[15-mis][mis_path_light]") {

@@ -156,12 +156,14 @@ _GLASS: Inputs = {
 _SHARE = 0.0452  # of the light that comes back at that angle
 
 
-def _clear(share: float = _SHARE, weight: float = 1.0, specular: float = 1.0, bent: float = 0.4) -> str:
+def _clear(
+    share: float = _SHARE, weight: float = 1.0, specular: float = 1.0, bent: float = 0.4, pdf: float = 1.0
+) -> str:
     is_mirrored = np.random.default_rng(14).random((_TIMES, 1)) < share
     through = np.array([-bent, 0.0, -math.sqrt(1 - bent**2)])
     directions = np.where(is_mirrored, np.array([-0.6, 0.0, 0.8]), through)
     again = np.concatenate([directions, directions[:1]])
-    return _rows(again, np.full((1, 3), weight), np.ones((1, 1)), specular)
+    return _rows(again, np.full((1, 3), weight), np.full((1, 1), pdf), specular)
 
 
 @pytest.mark.parametrize(
@@ -172,6 +174,7 @@ def _clear(share: float = _SHARE, weight: float = 1.0, specular: float = 1.0, be
         (_clear(share=0.0), "too little light is mirrored"),
         (_clear(weight=0.99), "the weight is wrong"),
         (_clear(specular=0.0), "not specular"),
+        (_clear(pdf=0.5), "the pdf is not 1"),
         (_clear(bent=0.9), "the refracted direction is wrong"),
         (_clear().rpartition(" 1 -0.4")[0] + " 1 -0.6 0 0.8 1 1 1 1 1", "the same stream gave another answer"),
     ],

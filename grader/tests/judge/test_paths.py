@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from raysteps.judge.cases.mis import mean_of_plates
+from raysteps.judge.cases.mis import mean_of_plates, mean_of_walls
 from raysteps.judge.cases.path_tracing import FUNCTIONS, mean_light
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.protocol import Fill, Hit, Inputs, Vec, Whole, text
 from raysteps.judge.scripted_tracer import (
+    DirectSample,
     DirectSamples,
     MisHit,
     MisScript,
@@ -173,3 +174,27 @@ _HALF = PlateLamp(0.25, 0.75, (4.0, 4.0, 4.0))
 )
 def test_the_mean_light_between_plates(script: MisScript, light: float) -> None:
     assert mean_of_plates(script) == pytest.approx((light, light, light))
+
+
+def _wall(pdf: float, *samples: DirectSample, emission: float = 0.0, ends: bool = False) -> MisHit:
+    """It sends on half of the light; where it is a lamp, its sample has the density 1."""
+    scatter = None if ends else WeighedScatter(Scatter(_UP, (0.5, 0.5, 0.5)), pdf)
+    return MisHit(2.5, _UP, (emission,) * 3, True, 1.0, DirectSamples(samples), scatter)
+
+
+_SAMPLED = DirectSample((1.0, 1.0, 1.0), 3.0, 1.0)  # weight 0.9
+
+
+@pytest.mark.parametrize(
+    ("hits", "light"),
+    [
+        ((_wall(1.0, emission=1.0),), 1.0 + 0.5),
+        ((_wall(1.0, _SAMPLED, _SAMPLED, ends=True),), 1.8),
+        ((_wall(2.0), _wall(1.0, emission=1.0, ends=True)), 0.5 * 0.8),
+        ((_wall(1.0, _SAMPLED), _wall(0.5), _wall(1.0, _SAMPLED, emission=1.0)), 0.9 + 0.25 * (0.2 + 0.9) + 0.125),
+    ],
+)
+def test_the_mean_light_between_walls(hits: tuple[MisHit, ...], light: float) -> None:
+    """Below a sky of 1."""
+    script = MisScript((1.0, 1.0, 1.0), goes_on=False, hits=hits)
+    assert mean_of_walls(script) == pytest.approx((light, light, light))

@@ -35,7 +35,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, may_be_so_many
+from raysteps.judge.statistics import Numbers, may_be_so_many, off
 
 _UP: Vector = (0.0, 0.0, 1.0)
 Mask = npt.NDArray[np.bool_]
@@ -99,6 +99,8 @@ _FRESNEL_SCHLICK = Function(
 
 # A polished metal.
 
+_ONE = 1e-6  # so far may a density of 1 be from it
+
 
 @dataclass(frozen=True)
 class _One:
@@ -127,7 +129,7 @@ def _mirror_problems(_inputs: Inputs, expected: _One, actual: _One) -> tuple[str
         direction("the direction", (right[0], right[1], right[2]), (mine[0], mine[1], mine[2])),
         channels("the weight", (right[3], right[4], right[5]), (mine[3], mine[4], mine[5]), Tolerance(2e-5, 5e-4)),
         "" if mine[7] else "a mirror's sample is not specular",
-        real("the pdf", 1.0, mine[6], Tolerance(1e-6, 0)),
+        real("the pdf", 1.0, mine[6], Tolerance(_ONE, 0)),
     )
 
 
@@ -353,8 +355,11 @@ _WEIGHT = 2e-3  # of what the weight should be, besides rounding
 _LEVEL = 0.02  # below such a cosine a float's rounding is too much of it to compare with
 
 
-def _weights_differ(mine: Numbers, right: Numbers, steep: Mask) -> bool:
-    return bool((np.abs(mine - right)[steep] > 1e-4 + _WEIGHT * np.abs(right[steep])).any())
+def _weight_problem(what: str, mine: Numbers, right: Numbers, steep: Mask) -> str:
+    mine, right = mine[steep], right[steep]
+    if not (np.abs(mine - right) > 1e-4 + _WEIGHT * np.abs(right)).any():
+        return ""
+    return off(what, mine.sum(axis=1) / right.sum(axis=1))
 
 
 def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
@@ -374,11 +379,12 @@ def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     steep = light[:, 2] > _LEVEL
     right = _schlick_of(hit.fill.color, cosines) * (seen / (seen + hidden))[:, None]
     density = alpha**2 / (math.pi * ((alpha**2 - 1) * half[:, 2] ** 2 + 1) ** 2) / (4 * seen * view[:, 2])
-    wrong_pdf = bool((np.abs(actual.pdfs - density)[steep] > 1e-4 + 5e-3 * density[steep]).any())
+    pdfs, density = actual.pdfs[steep], density[steep]
+    wrong_pdf = bool((np.abs(pdfs - density) > 1e-4 + 5e-3 * density).any())
     return (
         rough_problem(half, actual.nothing, view, alpha),
-        "the weight is not f cos / pdf" if _weights_differ(actual.weights, right, steep) else "",
-        "the pdf is not that of the direction" if wrong_pdf else "",
+        _weight_problem("the weight is not f cos / pdf", actual.weights, right, steep),
+        off("the pdf is not that of the direction", pdfs / density) if wrong_pdf else "",
         "rough metal gives a specular sample" if actual.is_specular_somewhere else "",
     )
 
@@ -439,12 +445,12 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     hit, alpha, samples = inputs["hit"], real_of(inputs, "roughness"), actual.samples
     assert isinstance(hit, Hit)
     if samples.count != whole_of(inputs, "times") or not len(samples.rows):
-        return ("no proper answer came",) * 4
+        return ("no proper answer came",) * 5
     wrong = unit_problem(samples.directions)
     if wrong or not np.isfinite(samples.rows).all():
-        return (wrong or "a number is NaN",) * 4
+        return (wrong or "a number is NaN",) * 5
     if not actual.same_again:
-        return ("the same stream gave another answer; all numbers must come from it",) * 4
+        return ("the same stream gave another answer; all numbers must come from it",) * 5
     view, next_ = _local(inputs, samples.directions)
     eta = _eta(hit)
     is_mirrored = next_[:, 2] > 0
@@ -452,7 +458,7 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     normals = units(between) * np.where(between[:, 2] < 0, -1.0, 1.0)[:, None]
     cosines = np.clip(_dots(view, normals), 0.0, 1.0)
     if alpha == 0 and not (normals[:, 2] > 1 - 2e-4).all():
-        return (_astray(is_mirrored, normals),) * 4
+        return (_astray(is_mirrored, normals),) * 5
     seen, hidden = 1 + smith_lambda(view, alpha), smith_lambda(next_, alpha)
     right = (seen / (seen + hidden))[:, None] * np.ones(3)
     steep = np.abs(next_[:, 2]) > _LEVEL
@@ -460,9 +466,10 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     return (
         _share_problem(is_mirrored, shares, samples.nothing)
         or (_odds_problem(is_mirrored, shares, view, normals, samples.nothing) if alpha else ""),
-        "the weight is wrong" if _weights_differ(samples.weights, right, steep) else "",
+        _weight_problem("the weight is wrong", samples.weights, right, steep),
         rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
         "" if samples.are_specular else "a sample of glass is not specular",
+        off("the pdf is not 1", samples.pdfs) if (np.abs(samples.pdfs - 1) > _ONE).any() else "",
     )
 
 
@@ -472,8 +479,8 @@ def _of_smooth(nothing: int) -> str:
 
 def _astray(is_mirrored: Mask, normals: Numbers) -> str:
     """Of smooth glass: which of the two ways is not the one of its law."""
-    off = normals[:, 2] <= 1 - 2e-4
-    return f"the {'mirrored' if (off & is_mirrored).any() else 'refracted'} direction is wrong"
+    astray = normals[:, 2] <= 1 - 2e-4
+    return f"the {'mirrored' if (astray & is_mirrored).any() else 'refracted'} direction is wrong"
 
 
 def _odds_problem(is_mirrored: Mask, shares: Numbers, view: Numbers, normals: Numbers, nothing: int) -> str:
@@ -498,7 +505,8 @@ def _share_problem(is_mirrored: Mask, shares: Numbers, nothing: int) -> str:
     found = int(is_mirrored.sum())
     if may_be_so_many(found, shares, nothing + math.ceil(1e-3 * len(shares))):
         return ""
-    return f"too {'much' if found > shares.sum() else 'little'} light is mirrored"
+    words = f"too {'much' if found > shares.sum() else 'little'} light is mirrored"
+    return off(words, np.array([found / max(float(shares.sum()), 1.0)]))
 
 
 def _glass_fill(draw: RandomSource) -> Fill:
@@ -535,7 +543,7 @@ _SCATTER_GLASS = Function(
         _read_glass,
         lambda glass: words_of_samples(glass.samples),
         lambda inputs, _expected, actual: first(*_glass_problems(inputs, actual)),
-        lambda inputs, _expected, actual: 0.5 * share_beyond(1, *_glass_problems(inputs, actual)),
+        lambda inputs, _expected, actual: 0.5 * share_beyond(2, *_glass_problems(inputs, actual)),
         is_drawn=True,
     ),
     (

@@ -7,7 +7,7 @@ import numpy as np
 
 from raysteps.common.vectors import Vector, add, cross, minus, unit
 from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, number_answer, read_vector
-from raysteps.judge.cases.path_tracing import VERY_LATE, length_problem, often, once, path_answer
+from raysteps.judge.cases.path_tracing import SURE, VERY_LATE, length_problem, often, once, path_answer
 from raysteps.judge.estimates import Estimates, estimates_problem
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, Real, Vec, f32, rounded, vector_words
@@ -219,7 +219,9 @@ def _emission(draw: RandomSource, low: float, high: float) -> Inputs:
 
 
 def _emission_in_mirror(draw: RandomSource) -> Inputs:
-    return {"sample": _scatter(draw, 1.0, specular=True), "light_pdf": Real(_density(draw))}
+    """What is specular says the sample, not its density, which is 1 of some matt surfaces, too."""
+    pdf = _density(draw) if draw.chance(0.4) else 1.0
+    return {"sample": _scatter(draw, pdf, specular=draw.chance(0.7)), "light_pdf": Real(_density(draw))}
 
 
 def _never_sampled(draw: RandomSource) -> Inputs:
@@ -327,6 +329,52 @@ def _late(draw: RandomSource) -> MisScript:
     return MisScript(draw.color(0.5, 1.0), goes_on=False, hits=tuple(plates))
 
 
+def _met_late(draw: RandomSource) -> MisScript:
+    """Bright walls, and lamps behind those from which on roulette is played: met as likely as sampled."""
+    hits = [_wall(draw, i, "", 0.9, 0.97) for i in range(SURE + 1)]
+    hits += [_wall(draw, SURE + 1 + i, kind, 0.9, 0.97) for i, kind in enumerate(("le", "l", "le", "le", "ex"))]
+    return MisScript(_BLACK, goes_on=False, hits=tuple(hits))
+
+
+def _wall(draw: RandomSource, number: int, kind: str, low: float, high: float) -> MisHit:
+    """That sends so much of each channel on."""
+    hit = _hit(draw, number, kind)
+    if hit.scatter is None:
+        return hit
+    direction, pdf = hit.scatter.scatter.direction, hit.scatter.pdf
+    return replace(hit, scatter=WeighedScatter(Scatter(direction, draw.color(low, high)), pdf))
+
+
+_LAMPS = 60  # to be asked: so whoever goes on too often asks much more
+
+
+def _dark_wall(draw: RandomSource) -> MisScript:
+    """The wall behind which roulette begins takes nearly all of the light: so few paths go on from just there."""
+    walls = [_wall(draw, i, "", 0.95, 0.98) for i in range(SURE)]
+    lamps = DirectSamples(tuple(_sample(draw) for _ in range(_LAMPS)))
+    last = replace(_hit(draw, SURE + 1, "x"), samples=lamps)
+    return MisScript(_BLACK, goes_on=False, hits=(*walls, _wall(draw, SURE, "", 0.02, 0.05), last))
+
+
+def mean_of_walls(script: MisScript) -> Vector:
+    """What paths bring on average where all that they meet is certain: only roulette is left to chance."""
+    light, weight = np.zeros(3), np.ones(3)
+    last: WeighedScatter | None = None
+    for hit in script.hits:
+        met = 1.0 if last is None else _power(last.pdf, hit.light_pdf)
+        light += weight * met * np.array(hit.emission)
+        for sample in hit.samples.samples:
+            light += weight * _power(sample.pdf, sample.scatter_pdf) * np.array(sample.light)
+        last = hit.scatter
+        weight = weight * (np.zeros(3) if last is None else np.array(last.scatter.weight))
+    x, y, z = (float(channel) for channel in light + weight * np.array(script.background))
+    return x, y, z
+
+
+def _power(pdf: float, other: float) -> float:
+    return pdf * pdf / (pdf * pdf + other * other)
+
+
 def mean_of_plates(script: MisScript) -> Vector:
     """What paths bring on average between plates; the last one may come again and again."""
     light = np.array(script.background)
@@ -351,8 +399,9 @@ def _many_problem(inputs: Inputs, expected: Estimates, actual: Estimates) -> str
     """Who leaves one of the two ways out asks less; where that makes no noise it is right."""
     script = inputs["tracer"]
     assert isinstance(script, MisScript)
+    mean = mean_of_plates(script) if script.hits[-1].exponent > 0 else mean_of_walls(script)
     return first(
-        estimates_problem("the light", mean_of_plates(script), expected, actual, _MOST_WORK),
+        estimates_problem("the light", mean, expected, actual, _MOST_WORK),
         length_problem(expected, actual) if actual.cost * expected.count > expected.cost * actual.count else "",
     )
 
@@ -374,6 +423,8 @@ _MIS_PATH_LIGHT = Function(
         Group("lamps of all sizes", lambda d: often(d, _of_all_sizes(d), 0.06)),
         Group("plate after plate", lambda d: often(d, _in_turn(d), 0.1)),
         Group("light found very late", lambda d: often(d, _late(d), 0.7)),
+        Group("lamps met behind many walls", lambda d: often(d, _met_late(d), 0.06)),
+        Group("a dark wall", lambda d: often(d, _dark_wall(d), 0.3)),
     ),
 )
 
