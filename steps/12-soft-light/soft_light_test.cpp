@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/random_stream.hpp"
+#include "testing/grid.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -181,6 +182,11 @@ TEST_CASE("unit_disk: equal rings and equal slices get equally many", "[12-soft-
     differences.check_even();
 }
 
+TEST_CASE("unit_disk: angles end with a whole turn", "[12-soft-light][unit_disk]") {
+    INFO("no side is preferred; to 360, in radians, it would be 57 turns and a part of one");
+    CHECK(glm::length(mean_side(unit_disk)) < k_even_side);
+}
+
 TEST_CASE("cap_direction: unit vectors, no lower than the cap", "[12-soft-light][cap_direction]") {
     for (const float height : {2.0F, 1.0F, 0.3F, 0.001F, 1e-7F}) {
         CAPTURE(height);
@@ -191,6 +197,11 @@ TEST_CASE("cap_direction: unit vectors, no lower than the cap", "[12-soft-light]
             CHECK(direction.z >= 1.0F - height - 1e-4F);
         });
     }
+}
+
+TEST_CASE("cap_direction: angles end with a whole turn", "[12-soft-light][cap_direction]") {
+    INFO("no side is preferred; to 360, in radians, it would be 57 turns and a part of one");
+    CHECK(glm::length(mean_side([](const glm::vec2& u) { return glm::vec2(cap_direction(0.5F, u)); })) < k_even_side);
 }
 
 TEST_CASE("cap_direction: equal solid angles get equally many", "[12-soft-light][cap_direction]") {
