@@ -8,7 +8,7 @@ constexpr int k_glass_sphere = 4;
 std::unique_ptr<Surface> read_surface(TokenReader& words, Fill fill, Asked& asked) {
     const int kind = words.whole();
     if (kind == 0 || kind == k_glass_sphere) {
-        fill.transmittance = kind == k_glass_sphere ? 0.8F : 0.0F;
+        fill.transmittance = kind == k_glass_sphere ? 1.0F : 0.0F;
         const glm::vec3 center = words.vector();
         return std::make_unique<CountedSphere>(center, words.number(), fill, asked);
     }

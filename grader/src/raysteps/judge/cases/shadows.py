@@ -115,10 +115,17 @@ def behind_light(draw: RandomSource) -> Inputs:
 
 def before_light(draw: RandomSource) -> Inputs:
     """Ends close before the light, or begins close behind it. Half of them are small, so that they begin close before
-    the light, too."""
+    the light, too; some are flat."""
     hit = random_hit(draw)
     light = light_above(draw, hit, 4, 12)
     way = unit(minus(light.position, hit.position))
+    if draw.chance(0.3):
+        side, size = sideways(draw, hit, light), draw.real(0.2, 0.6)
+        middle = add(light.position, way, draw.real(0.03, 0.08) * draw.sign())
+        low, other = add(middle, side, -0.6 * size), cross(way, side)
+        corners = add(middle, side, size), add(low, other, size), add(low, other, -size)
+        a, b, c = (rounded(corner) for corner in corners)
+        return scene([Triangle(a, b, c)], hit, light)
     radius = draw.real(0.3, 1) if draw.chance(0.5) else draw.real(0.03, 0.12)
     gap = (radius + draw.real(0.03, 0.1)) * draw.sign()
     return scene([Sphere(rounded(add(light.position, way, gap)), radius)], hit, light)
@@ -241,9 +248,10 @@ def _far_light(draw: RandomSource) -> Inputs:
     hit = random_hit(draw)
     light = light_above(draw, hit, 1e3, 1e4)
     way = unit(minus(light.position, hit.position))
-    radius, blocked = draw.real(0.5, 2), draw.chance(0.5)
+    reach = draw.real(5, 20) if draw.chance(0.5) else draw.real(0.2, 0.8) * length(minus(light.position, hit.position))
+    radius, blocked = draw.real(0.05, 0.15) * reach, draw.chance(0.5)
     off = draw.real(0.0, 0.7) if blocked else draw.real(1.3, 2.0)
-    place = add(add(hit.position, way, draw.real(5, 20)), sideways(draw, hit, light), off * radius)
+    place = add(add(hit.position, way, reach), sideways(draw, hit, light), off * radius)
     return scene([Sphere(rounded(place), radius)], hit, light)
 
 
