@@ -1,42 +1,42 @@
 #pragma once
 // Means over so many points of the unit square that a hundredth too many on one side is seen.
+#include <algorithm>
 #include <cstddef>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "core/random_stream.hpp"
 #include "core/threads.hpp"
 
 namespace raysteps::testing {
 
-constexpr int k_grid_rows = 1200;  ///< and as many columns
-constexpr float k_below_one = 1.0F - 1.0F / 16777216.0F;
-
 constexpr glm::dvec2 k_nowhere(1.0, 0.0);  ///< what has no length lies to one side: then so does all that a stub gives
 
-/// The mean of the unit vectors along ask(u), of one random u in each square of a grid. That is off by 7 deviations of
-/// as many independent points at most, 0.0042, where no side is preferred.
+/// The length of the mean of the unit vectors along ask(u), of the middles of so many columns and rows.
 template <typename Ask>
-glm::dvec2 mean_side(Ask ask) {
-    constexpr double k_all = static_cast<double>(k_grid_rows) * k_grid_rows;
-    RandomStream random(14);
-    glm::dvec2 sum(0.0);
-    std::vector<glm::vec2> row(k_grid_rows);
-    for (int y = 0; y < k_grid_rows; ++y) {
-        for (int x = 0; x < k_grid_rows; ++x) {
-            const glm::vec2 corner(static_cast<float>(x), static_cast<float>(y));
-            const glm::vec2 u = (corner + random.next_2d()) / static_cast<float>(k_grid_rows);
-            row[static_cast<std::size_t>(x)] = glm::min(u, glm::vec2(k_below_one));
-        }
-        for (const glm::vec2& side : answers_to(row, ask)) {
-            sum += glm::dot(side, side) > 0.0F ? glm::dvec2(glm::normalize(side)) : k_nowhere;
-        }
+double lean(std::size_t columns, std::size_t rows, Ask ask) {
+    const glm::vec2 size(static_cast<float>(columns), static_cast<float>(rows));
+    std::vector<glm::vec2> middles;
+    for (std::size_t i = 0; i < columns * rows; ++i) {
+        const glm::vec2 corner(static_cast<float>(i % columns), static_cast<float>(i / columns));
+        middles.push_back((corner + 0.5F) / size);
     }
-    return sum / k_all;
+    glm::dvec2 sum(0.0);
+    for (const glm::vec2& side : answers_to(middles, ask)) {
+        sum += glm::dot(side, side) > 0.0F ? glm::dvec2(glm::normalize(side)) : k_nowhere;
+    }
+    return glm::length(sum) / static_cast<double>(middles.size());
 }
 
-constexpr double k_even_side = 0.0042;
+/// The larger of that of many columns and of many rows: an angle may be made of either number. It is 0 but for rounding
+/// where no side is preferred, and 0.0045 where angles go to 360, in radians: 57 turns and a part of one.
+template <typename Ask>
+double lean_of(Ask ask) {
+    constexpr std::size_t k_many = 1200;
+    constexpr std::size_t k_few = 16;
+    return std::max(lean(k_many, k_few, ask), lean(k_few, k_many, ask));
+}
+
+constexpr double k_no_lean = 0.003;
 
 }  // namespace raysteps::testing

@@ -41,7 +41,7 @@ std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
     const float inside_ab = glm::dot(glm::cross(to_b, to_point), plane_normal);
     const float whole = glm::dot(plane_normal, plane_normal);
     const float inside_bc = whole - inside_ca - inside_ab;
-    if (inside_ca < 0.0F || inside_ab < 0.0F || inside_bc < 0.0F) {
+    if (!(inside_ca >= 0.0F && inside_ab >= 0.0F && inside_bc >= 0.0F)) {
         return std::nullopt;
     }
     return record_hit(*this, ray, distance, point, glm::normalize(plane_normal));

@@ -209,7 +209,7 @@ def test_a_submission_stays_as_it_was_handed_in(capsys: pytest.CaptureFixture[st
     if out == "link":
         (tmp_path / "link").symlink_to(ann)
     assert main(["grade", str(ann), "--out", str(tmp_path / out)]) == 2
-    told = f"--out {tmp_path / out}: the results would lie among what was handed in, {ann}; name another folder"
+    told = f"--out {tmp_path / out}: the results would lie among what was handed in, {ann}; name a folder outside of it"
     assert told in capsys.readouterr().err
     assert sorted(path.name for path in ann.iterdir()) == ["results.json", "steps"]
     assert (ann / "results.json").read_text() == "my own notes"

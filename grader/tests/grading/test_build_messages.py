@@ -163,7 +163,7 @@ def test_a_missing_function_is_named() -> None:
     [
         ("Color Specular(const Fill& fill) {\n}", "The file has Specular: is that meant to be specular?"),
         ("Color specula(const Fill& fill) {\n}", "The file has specula: is that meant to be specular?"),
-        ("Color specular(int fill) {\n}", "The file has a specular, but with other arguments than the header's"),
+        ("Color specular(int fill) {\n}", "The file has specular, but with other arguments than the header's"),
         ("Color other(int fill);", ""),
     ],
 )

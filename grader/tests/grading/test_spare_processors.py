@@ -69,7 +69,7 @@ def test_no_step_waits_for_a_processor_that_is_busy_with_another(
     assert [result.status for result in results.steps] == ["passed"] * 3
     together = results.steps[1].cumulative
     assert together.message == (
-        "The picture is right. It was drawn with the reference's 02-intersection, which you left out this time."
+        "The picture is right. It was drawn with the reference's 02-intersection, which was not graded this time."
     )
 
 

@@ -1,5 +1,6 @@
 """What all programs of a submission may take together."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import cast
@@ -9,7 +10,7 @@ import pytest
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.grading.images import ImageGrader, trouble
-from raysteps.grading.unit_tests import run_tests
+from raysteps.grading.unit_tests import known_to_hang, run_tests
 from raysteps.sandbox.task import AccountingSandbox, Isolation, LimitHit, Limits, Task, TaskResult
 from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -90,11 +91,13 @@ def _ended(name: str, seconds: float, *, passed: bool = True) -> str:
 
 
 @pytest.mark.parametrize("root", ['<Catch name="x"><Group name="x">', '<?xml version="1.0"?><Catch2TestRun name="x">'])
-@pytest.mark.parametrize(("before", "asked"), [(0.2, ["c"]), (3.0, ["a", "b", "c"])])
+@pytest.mark.parametrize(
+    ("before", "asked"), [(0.15, ["c"]), *((before, ["a", "b", "c"]) for before in (0.5, 1.95, math.nan))]
+)
 def test_a_test_in_which_all_of_them_were_stopped_is_not_asked_again(
     steps: list[Step], root: str, before: float, asked: list[str]
 ) -> None:
-    """What had ended before it counts. Where others had used up much of the time, nobody knows whether it hangs."""
+    """What had ended before it counts. Where others had a share of the time, it may be slow and right."""
 
     class Stopped:
         isolation = Isolation()
@@ -139,6 +142,26 @@ def test_only_the_time_of_the_step_is_told(steps: list[Step], tmp_path: Path) ->
     assert "after 10 seconds" in said[0]
     assert not any("2.5" in words for words in said)
     assert said[-1] == said[1].replace("The test", "The picture")
+
+
+def test_who_shares_a_test_or_had_less_time_is_not_known_to_hang(steps: list[Step]) -> None:
+    """A right function that is slow has the time of the step in the judge, whatever hangs beside it."""
+
+    class Hanging:
+        isolation = Isolation()
+
+        def run(self, task: Task) -> TaskResult:
+            why: LimitHit = "memory" if str(task.command[-1]).startswith("large") else "cpu"
+            return TaskResult(Outcome(-9, False, "", "", task.limits.cpu_seconds), {}, 1.0, why)
+
+    def hanging(tests: dict[str, list[str]]) -> set[str]:
+        results = run_tests(Hanging(), Program(("tests",)), tests, limits_of(steps[0], {"seconds": 8.0}))
+        assert not any(result.passed for result in results)
+        return known_to_hang(results, tests)
+
+    assert hanging({"both": ["loop", "slow"], "alone": ["slow"]}) == set(), "the second one had less time"
+    assert hanging({"alone": ["loop"], **{f"{number}": ["loop"] for number in range(5)}, "slow": ["slow"]}) == {"loop"}
+    assert hanging({"large": ["large"], "slow": ["slow"]}) == set()
 
 
 def test_what_hangs_takes_no_tests_from_functions_that_do_not(steps: list[Step]) -> None:

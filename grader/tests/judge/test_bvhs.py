@@ -72,7 +72,7 @@ def test_right_trees(tree: str) -> None:
         (f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 1 2 0 2", "no surface of the scene"),
         (f"bvh 3 {_ROOT} {_EAST} 0 1 {_WEST} 1 1 2 0 1", "sticks out of the box of its leaf"),
         (f"bvh 3 {_WEST} 1 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1", "sticks out of its parent's"),
-        (f"bvh 3 nan nan nan nan nan nan 1 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1", "sticks out"),
+        (f"bvh 3 nan nan nan nan nan nan 1 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1", "holds a number that is NaN"),
         (f"bvh 2 {_ROOT} {_WEST} 0 1 2 0 1", "beyond the end of the nodes"),
         (f"bvh 3 {_ROOT} {_ALL} 0 0 {_EAST} 1 1 2 0 1", "reached twice"),
         (f"bvh 2 {_ALL} 0 0 {_EAST} 1 1 2 0 1", "reached twice"),

@@ -136,7 +136,7 @@ def test_a_number_that_is_none_is_said_to_be_that(number: float, said: str) -> N
         read_vector, words_of_vector, lambda _, expected, actual: "" if expected == actual else "it is dark"
     )
     reference = answer.measured("f", {}, "0 0 1")
-    assert answer.verdict({}, reference, f"0 {number} 1").problem == f"a number in the answer {said}"
+    assert answer.verdict({}, reference, f"0 {number} 1").problem == f"the answer holds a number that {said}"
     assert answer.verdict({}, reference, "0 5 1").problem == "it is dark"
     assert answer.verdict({}, answer.measured("f", {}, "inf 0 1"), "inf 5 1").problem == "it is dark"
 

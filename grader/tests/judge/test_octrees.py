@@ -59,7 +59,7 @@ def test_right_trees(tree: str) -> None:
         (f"tree {_ALL} 0 2 {_WEST} 2 0 -1 0 {_EAST} 1 1 0", "no surface of the scene"),
         (f"tree {_ALL} 0 2 {_WEST} 2 0 2 0 {_EAST} 1 1 0", "no surface of the scene"),
         ("tree 0 0 0 0 0 0 0 0", "in no box"),
-        ("tree nan nan nan nan nan nan 2 0 1 0", "in no box"),
+        ("tree nan nan nan nan nan nan 2 0 1 0", "holds a number that is NaN"),
     ],
 )
 def test_wrong_trees(tree: str, said: str) -> None:

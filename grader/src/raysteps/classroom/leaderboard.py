@@ -25,7 +25,7 @@ from raysteps.results.work_ratio import NoWorkRatio, WorkRatio, work_ratio_of
 _WANTED = "expected the folder of a graded class, its class.json or class.sqlite, or a results.json"
 _WHY_NOT = {
     "fault": "not graded, because of a fault of the grader",
-    "unreadable": "nothing could be taken from it",
+    "unreadable": "it could not be read",
     "graded": OTHER_FORM,
 }
 _QUERY = (

@@ -157,7 +157,7 @@ _AS_IN_A_HEADER = (
     (re.compile(r"\b([\w:]{1,60}(?:<[^<>]{1,60}>)?) const([&*])"), r"const \1\2"),
 )
 _MAX_DEFINED = 200  # functions that are compared
-_DEFINED = re.compile(r"\b(\w{1,60})\s?\([^;{}()]{0,500}\)\s?(?:const\s?)?\{")
+_DEFINED = re.compile(r"\b(\w{1,60})\s?\([^;{}()]{0,500}\)\s{0,3}(?:const\s{0,3})?\{")
 
 
 def _as_in_a_header(name: str) -> str:
@@ -170,8 +170,10 @@ def _in_its_place(names: tuple[str, ...], source: str) -> str:
     """A line about what the file has that may be meant to be the first of these, or nothing."""
     name = names[0].partition("(")[0].rpartition("::")[2]
     defined = list(dict.fromkeys(_DEFINED.findall(source)))[:_MAX_DEFINED]
+    if "::" in names[0].partition("(")[0].replace("raysteps::", "") and name in defined:
+        return ""  # of another class: with other arguments than the class tells, it would not compile
     if name in defined:
-        return f"\nThe file has a {name}, but with other arguments than the header's, or outside of namespace raysteps."
+        return f"\nThe file has {name}, but with other arguments than the header's, or outside of namespace raysteps."
     other = next((one for one in defined if one.lower() == name.lower()), None) or nearest(name, defined)
     return f"\nThe file has {other}: is that meant to be {name}? Upper and lower case differ, too." if other else ""
 

@@ -28,7 +28,7 @@ from raysteps.grading.images import (
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import TURN, GradingContext, Programs, StepGrader, answers_of, compile_steps
-from raysteps.grading.unit_tests import run_tests, set_aside, was_stopped
+from raysteps.grading.unit_tests import known_to_hang, run_tests, set_aside
 from raysteps.grading.withhold import withhold
 from raysteps.images.render import Gate, Rendered, judge_picture
 from raysteps.judge.counterexamples import Examples
@@ -182,7 +182,7 @@ class HiddenStepGrader(StepGrader):
             settings.seed,
             limits.seconds,
             self._examples,
-            {name for test in self._result.tests if was_stopped(test) for name in kit.tests[self.step.id][test.name]},
+            known_to_hang(self._result.tests, kit.tests[self.step.id]),
         )
 
     def _render_scene(self, program: Program, scene: HiddenScene) -> _RenderedScene:
@@ -345,7 +345,7 @@ class HiddenStepGrader(StepGrader):
                     self._wait_for(own)
                     only = self._settings.only
                     others = {
-                        "you left out this time": [one.id for one in replaced if only and one.id not in only],
+                        "was not graded this time": [one.id for one in replaced if only and one.id not in only],
                         "you do not have right yet": [one.id for one in replaced if not only or one.id in only],
                     }
                     self._result.cumulative = grade_integration(self._gallery, program, step, own, others)

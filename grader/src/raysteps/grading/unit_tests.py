@@ -18,7 +18,7 @@ from raysteps.toolchain.compile import Program
 from raysteps.toolchain.limits import StepLimits
 
 _MAX_STOPS = 3  # tests that are waited for, besides those of functions that were not among them
-_NEARLY_ALL = 0.75  # of the time that all tests have: whoever took that by itself is not asked again
+_NEXT_TO_NOTHING = 0.02  # of the time that all tests have, for those before the one that took the rest
 _TOO_MUCH_MEMORY = (
     "The test needed more memory than a program may have here. Does a list or a recursion grow without end?"
 )
@@ -26,6 +26,7 @@ _NOT_RUN = (
     f"This test was not run: {_MAX_STOPS} tests or more before it ran out of time or memory, one of the same function "
     "among them."
 )
+_TEST = "The test"
 FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
@@ -75,7 +76,7 @@ def _result_alone(ran: TaskResult, name: str, *, sooner: bool) -> TestResult:
 
 
 def _hung(name: str, seconds: float, *, sooner: bool) -> TestResult:
-    return TestResult(name, False, not_in_time("The test", seconds, sooner=sooner), outcome="timeout")
+    return TestResult(name, False, not_in_time(_TEST, seconds, sooner=sooner), outcome="timeout")
 
 
 def _why_cut_short(ran: TaskResult) -> str:
@@ -96,8 +97,8 @@ def run_tests(
     say: Callable[[str], None] = lambda text: None,
 ) -> list[TestResult]:
     """All test cases, each with the functions that it tests, in one process; when that ends badly, each in a process of
-    its own. The one in which that process was stopped is not run again, if it had nearly all of its time. After some
-    that were stopped, only those of functions that were not among these are run. `say` hears of waits."""
+    its own. The one in which that process was stopped is not run again, if it had as good as all of the time. After
+    some that were stopped, only those of functions that were not among these are run. `say` hears of waits."""
     ran = _run(sandbox, program, limits, limits.seconds)
     together = _complete(ran, tests)
     if together is not None:
@@ -131,12 +132,19 @@ def run_tests(
 
 
 def _cut_short(ran: TaskResult, names: Collection[str], seconds: float) -> CutReport | None:
-    """What a process tells that ran out of time in one test; None where several shared in the time."""
-    cut = parse_cut_report(ran.outputs.get("report", b"")) if ran.hung else None
-    if cut is None or seconds - cut.after < _NEARLY_ALL * seconds:
+    """What a process tells that ran out of processor time in one test; None where others had a share in it."""
+    cut = parse_cut_report(ran.outputs.get("report", b"")) if ran.stopped == "cpu" else None
+    if cut is None or not cut.after <= _NEXT_TO_NOTHING * seconds:  # which is no number, if a test told none
         return None
     told = [*(case.name for case in cut.ended), cut.running]
     return cut if len(set(told)) == len(told) and set(told) <= set(names) else None
+
+
+def known_to_hang(tests: Iterable[TestResult], functions: Mapping[str, Sequence[str]]) -> set[str]:
+    """Functions for which the step's whole time was not enough, in a test of nothing else."""
+    had_less = {_NOT_RUN, not_in_time(_TEST, 0, sooner=True)}
+    hung = [functions[test.name] for test in tests if test.outcome == "timeout" and test.message not in had_less]
+    return {names[0] for names in hung if len(names) == 1}
 
 
 def was_stopped(test: TestResult) -> bool:

@@ -337,7 +337,7 @@ def not_in_time(what: str, seconds: float, *, sooner: bool) -> str:
     """Of what was stopped. The one number that is told is the time that the step has: where programs before have used
     it up, this one had less (`sooner`), and is said to be one more of them."""
     if sooner:
-        return f"{what} was stopped, too. {ENDLESS} Programs of a step have less time once two of them were stopped."
+        return f"{what} was stopped, too. {ENDLESS} Once programs of a step were stopped, the next ones have less time."
     return f"{what} was stopped after {in_seconds(seconds)}. {ENDLESS}"
 
 

@@ -145,7 +145,7 @@ def _no_number_said(problem: str, right_line: str, line: str) -> str:
     if type(problem) is not str or "NaN" in problem or "infinite" in problem:
         return ""
     odd = {word.removeprefix("-") for word in line.split()} & {*_NONE} - {*right_line.replace("-", "").split()}
-    return f"a number in the answer is {_NONE['nan' if 'nan' in odd else 'inf']}" if odd else ""
+    return f"the answer holds a number that is {_NONE['nan' if 'nan' in odd else 'inf']}" if odd else ""
 
 
 def read_vector(tokens: TokenReader) -> Vector:

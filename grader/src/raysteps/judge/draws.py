@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from raysteps.judge.answers import no_number
 from raysteps.judge.protocol import ProtocolError, TokenReader, Whole, f32, text, vector_words
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers, off
@@ -94,9 +95,15 @@ def words_of_samples(samples: Samples) -> str:
     return ", ".join(shown)
 
 
+def odd_number(what: str, numbers: Numbers) -> str:
+    """Whether one of them is infinite or NaN, in words."""
+    return no_number(what, *numbers[~np.isfinite(numbers)].tolist())
+
+
 def unit_problem(directions: Numbers) -> str:
     """Whether all are numbers, and of unit length."""
-    if not np.isfinite(directions).all():
-        return "a direction is NaN"
+    odd = odd_number("a direction", directions)
+    if odd:
+        return odd
     lengths = np.linalg.norm(directions, axis=1)
     return "" if (np.abs(lengths - 1) <= _UNIT).all() else off("a direction does not have length 1", lengths)

@@ -66,7 +66,7 @@ def span(seconds: float) -> str:
 
 
 def graded(document: ClassResults) -> list[GradedSubmission]:
-    """Those whose points count: not those from which nothing could be taken."""
+    """Those whose points count: not those that could not be read."""
     return [one for one in document.submissions if one.status == "graded"]
 
 

@@ -159,7 +159,7 @@ class PointsChange:
 
 @dataclass
 class ClassStatistics:
-    """Of the points after lateness; those from which nothing could be taken do not count."""
+    """Of the points after lateness; those that could not be read do not count."""
 
     graded: Count
     mean: Amount | None

@@ -287,7 +287,8 @@ def refuse_results_in(handed_in: Path, out: Path, rooms: Sequence[str]) -> None:
     is_in = below is not None and not (below and is_out_of_sight(below))
     if is_in or any(real.is_relative_to(place / room) for room in rooms):
         raise UsageError(
-            f"--out {out}: the results would lie among what was handed in, {handed_in}; name another folder"
+            f"--out {out}: the results would lie among what was handed in, {handed_in}; name a folder outside of it, "
+            "or one in its build folder, such as build/grades"
         )
 
 

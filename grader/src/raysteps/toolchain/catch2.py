@@ -245,7 +245,7 @@ def parse_cut_report(report: bytes) -> CutReport | None:
 
 
 _END_OF_A_TEST = b"</TestCase>"
-_BEGINNING = re.compile(rb"<TestCase [^<>]*>")
+_BEGINNING = re.compile(rb'<TestCase (?:[^<>"]|"[^"<]*")*>')
 
 
 def _outcomes(root: Element) -> list[TestOutcome] | None:

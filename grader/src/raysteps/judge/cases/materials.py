@@ -12,6 +12,7 @@ from raysteps.judge.cases.microfacets import dielectric, rough_problem, smith_la
 from raysteps.judge.draws import (
     Samples,
     draws,
+    odd_number,
     read_directions,
     read_sample,
     read_samples,
@@ -368,9 +369,9 @@ def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     if actual.count != whole_of(inputs, "times") or not len(actual.rows):
         return ("no proper answer came",) * 4
     view, light = _local(inputs, actual.directions)
-    wrong = unit_problem(actual.directions)
-    if wrong or not np.isfinite(actual.rows).all():
-        return (wrong or "a number is NaN",) * 4
+    wrong = unit_problem(actual.directions) or odd_number("a number of a sample", actual.rows)
+    if wrong:
+        return (wrong,) * 4
     if not (light[:, 2] > 0).all():
         return ("a direction leads below the surface",) * 4
     half = units(view + light)
@@ -446,9 +447,9 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     assert isinstance(hit, Hit)
     if samples.count != whole_of(inputs, "times") or not len(samples.rows):
         return ("no proper answer came",) * 5
-    wrong = unit_problem(samples.directions)
-    if wrong or not np.isfinite(samples.rows).all():
-        return (wrong or "a number is NaN",) * 5
+    wrong = unit_problem(samples.directions) or odd_number("a number of a sample", samples.rows)
+    if wrong:
+        return (wrong,) * 5
     if not actual.same_again:
         return ("the same stream gave another answer; all numbers must come from it",) * 5
     view, next_ = _local(inputs, samples.directions)
