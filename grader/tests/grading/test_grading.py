@@ -96,6 +96,8 @@ def test_broken_steps_cost_themselves_only(
     assert status["04"] == status["05"] == "not-started"
     assert status["07"] == "timeout"
     assert any(test.passed for test in results.steps[6].tests), "a hang hides the other tests"
+    first = next(test for test in results.steps[6].tests if test.outcome == "timeout")
+    assert f"after {kit.steps[6].seconds:g} seconds" in first.message, "the test in which all of them were stopped"
     assert status["06"] == status["08"] == status["09"] == "passed"
 
 

@@ -4,6 +4,7 @@ import io
 from pathlib import Path
 
 import numpy as np
+import pytest
 from rich.console import Console
 
 from raysteps.course.manifest import Step
@@ -88,6 +89,25 @@ def test_a_newcomer_is_told_what_together_means(steps: list[Step]) -> None:
     print_table(console, Results.of("ann", [result]))
     assert "│ right " in text.getvalue()
     assert "is the step's first picture also right with your own earlier steps?" in text.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (
+            "own.cpp:66:11: warning: 'nearer' is used uninitialized [-Wuninitialized]",
+            "'nearer' is used uninitialized\n",
+        ),
+        ("C:\\kit\\own.cpp:66:11: warning: unused", "C:\\kit\\own.cpp:66:11: warning: unused\n"),
+        ("own.cpp(66,11): warning C4700: no value", "own.cpp(66,11): warning C4700: no value\n"),
+        (f"own.cpp:6:1: warning: {'long ' * 99}", "own.cpp:6:1: warning: long long"),
+    ],
+)
+def test_warnings_of_every_compiler_are_found(steps: list[Step], tmp_path: Path, line: str, said: str) -> None:
+    result = StepResult(steps[1].id, "failed", 0.0, steps[1].points, steps[1].bonus, build_log=f"{line}\n  x\n")
+    console = Console(file=(text := io.StringIO()), width=200, color_system=None)
+    print_details(console, Results.of("ann", [result]), steps, tmp_path, str, own=True)
+    assert said in text.getvalue()
 
 
 def test_warnings_of_the_compiler_stand_above_what_went_wrong(steps: list[Step], tmp_path: Path) -> None:

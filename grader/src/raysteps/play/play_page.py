@@ -234,7 +234,7 @@ class PlayPage:
             "steps": compiled,
         }
         words = {
-            "endless": ENDLESS.partition("?")[0] + "?",
+            "endless": ENDLESS,
             "raytrace": _RAYTRACE,
             "noTests": NO_TESTS,
             "tooManyTests": TOO_MANY_TESTS,
