@@ -15,11 +15,11 @@ using Vec = glm::dvec3;
 
 // The roots of a t^2 + 2 b t + c = 0 in rising order, without cancellation. One root may be infinite or NaN.
 std::optional<std::array<double, 2>> roots(double a, double b, double c) {
-    const double discriminant = b * b - a * c;
-    if (discriminant < 0.0) {
+    const double under_root = b * b - a * c;
+    if (under_root < 0.0) {
         return std::nullopt;
     }
-    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+    const double q = -(b + std::copysign(std::sqrt(under_root), b));
     const double first = q / a;
     const double second = q != 0.0 ? c / q : first;
     return first < second ? std::array{first, second} : std::array{second, first};
