@@ -140,7 +140,7 @@ def test_what_the_summary_says_of_lateness(course: Class, capsys: pytest.Capture
     assert "Late by the time of the file, where the roster has no submitted_at\n  s2: 20" in printed
     assert "s1: 2000" not in printed
     assert "2 submissions graded: mean 0.45, median 0.45 points after lateness, of 100, with up to 20" in printed
-    assert "more as a bonus; without the 1 from which" in printed
+    assert "more as a bonus; without the 1 that could not be read" in printed
     assert "final" in printed
     assert "by the time of the file" in course.table()[1]["lateness"]
     assert all(row["submitted_at"].endswith(("+00:00", "+02:00")) for row in course.table() if row["submission"])

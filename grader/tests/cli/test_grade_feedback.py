@@ -83,6 +83,6 @@ def test_what_was_graded_into_the_folder_before_is_not_replaced_in_silence(
         console = Console(file=io.StringIO(), width=200)
         (tmp_path / "out").mkdir(exist_ok=True)
         (tmp_path / "out" / "results.json").write_text("{}")
-        command.grade(project, command.GradeOptions(tmp_path, tmp_path / "out", Settings(only=only)), console)
+        command.grade(project, command.GradeOptions(tmp_path / "ann", tmp_path / "out", Settings(only=only)), console)
         said.append("take the place of all that was graded" in console.file.getvalue())  # type: ignore[attr-defined]
     assert said == [False, True]

@@ -46,7 +46,7 @@ def test_what_older_kits_did_not_write_or_only_they_did_may_be_missing_inside_to
         name: set(form["properties"]) - set(form["required"]) for name, form in forms.items() if "properties" in form
     }
     assert {name: keys for name, keys in missing.items() if keys} == {
-        "GradedSubmission": {"mistakes", "seconds", "earlier", "review", "inconsistent"},
+        "GradedSubmission": {"mistakes", "seconds", "earlier", "review", "inconsistent", "not_taken"},
         "EarlierResult": {"resubmitted"},
         "PointsChange": {"resubmitted"},
         "ClassResults": {"course", "inconsistent"},
