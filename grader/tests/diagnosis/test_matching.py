@@ -111,6 +111,8 @@ def test_the_same_numbers_are_the_same_answer() -> None:
     )
     assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("7 8 9", "it is wrong")) == 0.25
     assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("7 8 9", "it is too long")) == 0
+    telling = [ObservedAnswers(line, "it is too long") for line in ("4 5 6", "7 8 9")]
+    assert 0.25 < answer_similarity(function, case, "1 2 3", *telling) < 0.5
     assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("", "crashed")) == 0
     assert (
         answer_similarity(function, case, "1 2 3", ObservedAnswers("nan 1 1", "x"), ObservedAnswers("nan 1 1", "x"))

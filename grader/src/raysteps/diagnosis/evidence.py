@@ -190,6 +190,8 @@ _ABSOLUTE = 2e-4
 _RELATIVE = 2e-3
 _MAX_WORDS = 2000
 _WORDS_ONLY = 0.25  # of the weight of an answer with the same numbers
+_TELLING_WORDS = 0.45  # where they say how it is wrong, and not only that it is: too little to name a mistake by
+_THAT_IT_IS_WRONG = " is wrong"
 _SAME_WORDS_OF_CHANCE = 0.9  # of answers by chance: whoever turns a frame otherwise has other numbers for one mistake
 _TURNED = 0.8  # of the weight of the same number
 _MOSTLY = 0.6
@@ -306,4 +308,6 @@ def answer_similarity(
     if not same_problem:
         return 0.0
     agreement = _agreement(right, mistake.line, mine.line)
-    return agreement if agreement >= _MOSTLY else _WORDS_ONLY
+    if agreement >= _MOSTLY:
+        return agreement
+    return _WORDS_ONLY if mine.problem.endswith(_THAT_IT_IS_WRONG) else _TELLING_WORDS

@@ -21,7 +21,7 @@ _NEVER = 2.0  # where, besides, the mistake would draw other pictures
 _GOOD_AGAINST_PICTURES = 0.85  # of the cases, where pictures are wrong and the mistake explains none
 _ANOTHER = 0.2  # of a picture, or of cases where wrong answers hardly differ: below, that is wrong in another way
 _NOT_AGAINST = 0.4  # of the cases of its own function that a mistake must explain which pictures, or those that call
-# that function, name; the same words alone give 0.25
+# that function, name; that both are wrong gives 0.25, that both are so in the same way 0.45
 _FEWEST_CASES = 2.0
 _FEWEST_WEAK = 4.0  # where wrong answers hardly differ
 _FEWEST_PIXELS = 12
