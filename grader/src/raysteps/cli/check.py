@@ -48,12 +48,12 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)
-    has_waited = told and project.has_reference
+    has_learned = told and project.has_reference
     if not told:
         tell(checked)
     if any(result.diagnoses for result in checked.results.steps):
         print_diagnoses(console, checked.results)
-    elif has_waited and any(map(_is_unexplained, checked.results.steps)):
+    elif has_learned and any(map(_is_unexplained, checked.results.steps)):
         console.print("The known mistakes are learned; none of them explains what is wrong.")
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:

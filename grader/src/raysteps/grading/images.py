@@ -6,7 +6,6 @@ from pathlib import Path
 
 from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
-from raysteps.grading.unit_tests import was_stopped
 from raysteps.images.compare import (
     MOST_OF_A_PICTURE,
     Comparison,
@@ -53,7 +52,7 @@ class ImageGrader:
 
     def stopped_in(self, tests: Sequence[TestResult]) -> None:
         """All together, and then each by itself."""
-        if any(map(was_stopped, tests)):
+        if any(test.limit for test in tests):
             self.stopped()
             self.stopped()
 

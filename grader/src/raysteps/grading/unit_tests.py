@@ -26,7 +26,6 @@ _NOT_RUN = (
     f"This test was not run: {_MAX_STOPS} tests or more before it ran out of time or memory, one of the same function "
     "among them."
 )
-_TEST = "The test"
 FIND_THE_LINE = "A debugger stops at the line; docs/where-students-work.md says how to start one."
 _SPECIAL = re.compile(r'([\\,\["])')
 
@@ -72,11 +71,14 @@ def _result_alone(ran: TaskResult, name: str, *, sooner: bool) -> TestResult:
         return _result(cases[0])
     if ran.hung:
         return _hung(name, ran.outcome.seconds, sooner=sooner)
-    return TestResult(name, False, _why_cut_short(ran), outcome="crashed")
+    return TestResult(
+        name, False, _why_cut_short(ran), outcome="crashed", limit="memory" if ran.stopped == "memory" else ""
+    )
 
 
 def _hung(name: str, seconds: float, *, sooner: bool) -> TestResult:
-    return TestResult(name, False, not_in_time(_TEST, seconds, sooner=sooner), outcome="timeout")
+    said = not_in_time("The test", seconds, sooner=sooner)
+    return TestResult(name, False, said, outcome="timeout", limit="less-time" if sooner else "time")
 
 
 def _why_cut_short(ran: TaskResult) -> str:
@@ -114,17 +116,17 @@ def run_tests(
             limits = limits.after_a_stop()
         say(f"{'a test was' if known else 'the tests were'} stopped; each of the others runs by itself now")
     results: list[TestResult] = []
-    hung: list[set[str]] = [set(tests[name]) for name, result in known.items() if was_stopped(result)]
+    hung: list[set[str]] = [set(tests[name]) for name, result in known.items() if result.limit]
     for name, functions in tests.items():
         if name in known:
             results.append(known[name])
             continue
         if len(hung) >= _MAX_STOPS and any(one.issuperset(functions) for one in hung):
-            results.append(TestResult(name, False, _NOT_RUN, outcome="timeout"))
+            results.append(TestResult(name, False, _NOT_RUN, outcome="timeout", limit="not-run"))
             continue
         alone = _run(sandbox, program, limits, limits.seconds, name)
         results.append(_result_alone(alone, name, sooner=limits.is_impatient))
-        if was_stopped(results[-1]):
+        if results[-1].limit:
             hung.append(set(functions))
             limits = limits.after_a_stop()
             say(f"stopped: {name}")
@@ -142,18 +144,8 @@ def _cut_short(ran: TaskResult, names: Collection[str], seconds: float) -> CutRe
 
 def known_to_hang(tests: Iterable[TestResult], functions: Mapping[str, Sequence[str]]) -> set[str]:
     """Functions for which the step's whole time was not enough, in a test of nothing else."""
-    had_less = {_NOT_RUN, not_in_time(_TEST, 0, sooner=True)}
-    hung = [functions[test.name] for test in tests if test.outcome == "timeout" and test.message not in had_less]
+    hung = [functions[test.name] for test in tests if test.limit == "time"]
     return {names[0] for names in hung if len(names) == 1}
-
-
-def was_stopped(test: TestResult) -> bool:
-    """Whether a limit ended it, on time or on memory."""
-    return test.outcome == "timeout" or _is_out_of_memory(test)
-
-
-def _is_out_of_memory(test: TestResult) -> bool:
-    return test.outcome == "crashed" and test.message == _TOO_MUCH_MEMORY
 
 
 # The line at which a step crashes or hangs, by a program of the step that was compiled with sanitizers.
@@ -275,7 +267,7 @@ def has_crashed(test: TestResult) -> bool:
 
 def has_hung(test: TestResult) -> bool:
     """Whether it was stopped in the middle."""
-    return not test.waits_for and test.outcome == "timeout" and test.message != _NOT_RUN
+    return not test.waits_for and test.outcome == "timeout" and test.limit != "not-run"
 
 
 def crash_line(said: str, files: Collection[str], *, threw: bool) -> str:
@@ -307,7 +299,7 @@ def tell_crash_line(
     sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
 ) -> bool:
     """Runs a test that crashed or hung once more, and says beside its message where that was, if anybody can tell."""
-    slower = 1 if _is_out_of_memory(test) else _SLOWER  # what has no end comes to none with more time
+    slower = 1 if test.limit == "memory" else _SLOWER  # what has no end comes to none with more time
     seconds = _SECONDS_OF_A_HANG if test.outcome == "timeout" else slower * limits.seconds
     patient = replace(limits, seconds=seconds, memory_mb=_ALL_MEMORY_MB)
     ran = _run(sandbox, sanitized, patient, patient.seconds, test.name, tools=True)

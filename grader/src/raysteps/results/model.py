@@ -85,6 +85,7 @@ class Review:
 # What was seen of a step, of a picture and of the whole.
 
 Termination = Literal["ok", "wrong", "crashed", "timeout"]
+Limit = Literal["", "time", "less-time", "memory", "not-run"]
 
 
 @dataclass
@@ -102,6 +103,7 @@ class TestResult:
     outcome: Termination = "ok"
     weight: Amount = field(default=1.0, metadata=OPTIONAL)  # among the tests of the step
     waits_for: str = field(default="", metadata=OPTIONAL)  # a function that is not written yet
+    limit: Limit = field(default="", metadata=OPTIONAL)  # that ended it; "less-time": than the step gives
 
 
 @dataclass(frozen=True)
