@@ -300,7 +300,10 @@ def test_what_the_linker_says_in_the_words_of_the_grader(watched: Watched, serve
     words = {"twice": twice_message("{}"), "undefined": [undefined_message((one,)) for one in ("{}", "{} and {}")]}
     said = "wasm-ld: error: duplicate symbol: raysteps::far(float)\n>>> defined in /work/own-01.o\n"
     helpers = "".join(f"wasm-ld: error: /work/own-02.o: undefined symbol: raysteps::f{one}()\n" for one in "12345612")
+    vector = "far(glm::vec<3, float, (glm::qualifier)0> const&, std::span<Ray const, 4294967295ul>)"
+    asked = f"wasm-ld: error: /work/own-02.o: undefined symbol: raysteps::{vector}\n"
     for text, wanted in (
+        (asked, undefined_message(("far(const glm::vec3&, std::span<const Ray>)",))),
         (said, twice_message("raysteps::far(float)")),
         (helpers, undefined_message(tuple(f"f{one}()" for one in "123456"))),
         ("camera_rays.cpp:3:1: error: no such thing\n", None),

@@ -119,7 +119,7 @@ def test_what_the_linker_misses_is_told_as_the_native_kit_tells_it(page: "Page",
     right = solved["01-camera-rays"]
     problems = page.locator("#play-problems")
     save(page, right.replace("glm::vec3 point_at(", "glm::vec3 point_on("))
-    point = "point_at(Ray const&, float)"
+    point = "point_at(const Ray&, float)"
     expect(problems).to_have_text(missing_message((point,)), timeout=STARTED)
     status_says(page, r"It does not compile\.")
     save(page, right[: right.index("namespace")])

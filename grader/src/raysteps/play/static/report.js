@@ -11,6 +11,12 @@ const MATCHED = " is expected to ";
 const VERBS = { "be ": "= ", "have ": "has ", "point ": "points " };
 const TROUBLE = { Exception: "threw: ", FatalErrorCondition: "crashed: " };
 const MOST_LETTERS = 2000;
+// Names as a linker writes them, and as a header does.
+const AS_IN_A_HEADER = [
+  [/\bglm::vec<([234]), float, \(glm::qualifier\)0>/g, "glm::vec$1"],
+  [/\bstd::span<([\w:]{1,60}) const, \d{1,20}ul>/g, "std::span<const $1>"],
+  [/\b([\w:]{1,60}(?:<[^<>]{1,60}>)?) const([&*])/g, "const $1$2"],
+];
 
 function shorten(text, limit = MOST_LETTERS) {
   return text.length <= limit ? text : `${text.slice(0, limit)} ...`;
@@ -25,13 +31,17 @@ export function linkerWords(said, words) {
   }
   const missed = [...said.matchAll(/error: ([^\n]+): undefined symbol: ([^\n]+)/g)];
   const asked = missed.filter(([, object]) => !object.includes("/own-"));
-  const names = new Set((asked.length ? asked : missed).map(([, , name]) => name.replaceAll("raysteps::", "")));
+  const names = new Set((asked.length ? asked : missed).map(([, , name]) => asInAHeader(name).replaceAll("raysteps::", "")));
   const shown = [...names].slice(0, asked.length ? names.size : 5).map((name) => shorten(name, 200));
   const [one, several] = asked.length ? words.missing : words.undefined;
   const last = shown.pop();
   return shown.length
     ? several.replace("{} and {}", () => `${shown.join(", ")} and ${last}`)
     : last && one.replace("{}", () => last);
+}
+
+function asInAHeader(name) {
+  return AS_IN_A_HEADER.reduce((text, [pattern, plain]) => text.replace(pattern, plain), name);
 }
 
 function textOf(element) {
