@@ -46,11 +46,14 @@ TEST_CASE("shadow_ray: aims at the light", "[04-shadows][shadow_ray]") {
 
 TEST_CASE("shadow_ray: starts just off the surface", "[04-shadows][shadow_ray]") {
     const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
-    const Ray ray = shadow_ray(hit, {{4.0F, 2.0F, 4.0F}, k_white});
-    CAPTURE(ray);
-    INFO("the origin is off the surface, on the side of the normal, by no more than 0.01");
-    CHECK(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
-    CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+    for (const float height : {4.0F, -4.0F}) {
+        const glm::vec3 light{4.0F, 2.0F, height};
+        const Ray ray = shadow_ray(hit, {light, k_white});
+        CAPTURE(light, ray);
+        INFO("the origin is off the surface, on the side of the normal, by no more than 0.01, wherever the light is");
+        CHECK(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
+        CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+    }
 }
 
 TEST_CASE("shadow_ray: goes from the hit to the light for any of them", "[04-shadows][shadow_ray]") {

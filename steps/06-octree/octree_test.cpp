@@ -173,7 +173,7 @@ TEST_CASE("closest_hit_in_octree: a ground and a dome are not lost among small t
     Scene scene = mixed_scene(random, 60, 0);
     scene.add(std::make_unique<Triangle>(glm::vec3{-300.0F, -300.0F, -5.5F}, glm::vec3{300.0F, -300.0F, -5.5F},
                                          glm::vec3{0.0F, 300.0F, -5.5F}, Fill{}));
-    scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 400.0F));
+    scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 40000.0F));
     const Node root = columns_around(scene.surfaces());
     INFO("wherever a ray from inside the dome goes, it meets something");
     check_same_hits(root, scene.surfaces(), rays(500, [&](int) { return random.ray(5.0F); }));

@@ -156,6 +156,9 @@ TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction][t
     INFO("for comparison: an index a little above 1 bends a little");
     const Ray bent = transmitted_ray(glass_hit(downwards(50.0F), 1.1F, true));
     CHECK(sine(bent.direction, k_up) == about(0.766044 / 1.1, 1e-3));
+    INFO("and one below 1, as a bubble of air in glass has it, bends the other way");
+    const Ray bubble = transmitted_ray(glass_hit(downwards(30.0F), 0.8F, true));
+    CHECK(sine(bubble.direction, k_up) == about(0.5 / 0.8, 1e-3));
 }
 
 TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refraction][transmitted_ray]") {
@@ -183,6 +186,8 @@ TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refrac
     REQUIRE(tracer.traced.size() == 1);
     CHECK(tracer.traced[0].depth == 4);
     CHECK_THAT(tracer.traced[0].ray.direction, IsNear({0.471405F, 0.0F, -0.881917F}));
+    INFO("the deepest ray that may be followed is sent, too");
+    CHECK_THAT(transmitted_light(tracer, hit, tracer.max_ray_depth() - 1), IsNear({0.4F, 0.2F, 0.1F}));
 }
 
 TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][transmitted_light]") {

@@ -89,6 +89,12 @@ TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][clo
         };
         check_same_hits(bvh, scene.surfaces(), rays(600, along_an_axis));
     }
+    SECTION("in a dome that is 40,000 away") {
+        Scene domed = mixed_scene(random, 100, 0);
+        domed.add(sphere_at({0.0F, 0.0F, 0.0F}, 40000.0F));
+        check_same_hits(chain_of_leaves(domed.surfaces()), domed.surfaces(),
+                        rays(300, [&](int) { return random.ray(5.0F); }));
+    }
 }
 
 TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the scene counts",

@@ -2,6 +2,7 @@
 of these rays, and in whose tree. Scene and rays are drawn first, then a distance, then whose tree it is."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TypeAlias
 
 from raysteps.common.vectors import Vector, add, minus, times, unit
@@ -125,6 +126,21 @@ def along_axis(draw: RandomSource) -> RaysInScene:
 def from_far(draw: RandomSource) -> RaysInScene:
     surfaces = small_scene(draw, 25, 6)
     return surfaces, (aimed(draw, surfaces, 100),)
+
+
+def in_a_large_world(draw: RandomSource) -> RaysInScene:
+    """Everything is so many times as large as elsewhere that no hit is nearer than 1000. It is a power of two, so that
+    nothing is rounded in another way."""
+    surfaces, (ray,) = aimed_ray(draw)
+    size = 2.0 ** draw.whole(8, 14)
+
+    def enlarged(surface: Surface) -> Surface:
+        if isinstance(surface, Sphere):
+            return replace(surface, center=times(size, surface.center), radius=size * surface.radius)
+        assert isinstance(surface, Triangle)
+        return Triangle(*(times(size, corner) for corner in (surface.a, surface.b, surface.c)))
+
+    return tuple(map(enlarged, surfaces)), (Ray(times(size, ray.origin), ray.direction),)
 
 
 def looking_away(draw: RandomSource, nearest: float = 10) -> RaysInScene:
