@@ -321,15 +321,17 @@ def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
     _is_open(page, "ann")
 
 
-def _with_mistakes(out: Path, titles: dict[str, str]) -> None:
-    """A class that nobody graded: who made which mistake in step 01."""
+def _with_mistakes(out: Path, titles: dict[str, str], *messages: str) -> None:
+    """A class that nobody graded: who made which mistake in step 01, and what is said of it."""
     entries = [Registered(name, name, "here") for name in titles]
     steps = [{"id": _STEP, "title": "Camera rays", "points": 10, "bonus": False}]
     with closing(ClassDatabase(out)) as database:
         run = database.begin_run(RunFacts("u", "kit", "/in", "1/1", Settings(), steps, "", []), entries, [])
         for name, title in titles.items():
             found = [Diagnosis("mistake", "m", title)] if title else []
-            results = Results.of(name, [StepResult(_STEP, "partial", 5, 10, False, diagnoses=found)])
+            results = Results.of(
+                name, [StepResult(_STEP, "partial", 5, 10, False, diagnoses=found, messages=[*messages])]
+            )
             database.record(run, Answer(name, "graded", results, worker="w"), "key", sources={_STEP: b"int a;\n"})
         database.end_run(run, "complete", {})
 
@@ -347,6 +349,20 @@ def test_the_same_mistake_leads_to_the_next_who_made_it(watched: Watched, tmp_pa
         _is_open(page, "b")
         _press(page, "m")
         page.locator("#trouble", has_text="Nobody else").wait_for()
+        watched.close()
+
+
+def test_what_the_compiler_said_keeps_its_columns(watched: Watched, tmp_path: Path) -> None:
+    _with_mistakes(
+        tmp_path, {"a": ""}, "It does not build: a.cpp:1:5: expected `;`\n   1 | int a\n     |     ^", "Look up."
+    )
+    with closing(Desk(tmp_path, "Ada")) as desk, closing(DeskServer(desk)) as server:
+        watched.allowed.append(server.address)
+        page = _open(watched, server, "a")
+        assert page.locator(".desk-side .said code").all_inner_texts() == [";"]
+        assert page.locator(".desk-side pre").inner_text() == "   1 | int a\n     |     ^"
+        assert page.locator(".desk-side .said").last.inner_text() == "Look up."
+        assert_accessible(page)
         watched.close()
 
 

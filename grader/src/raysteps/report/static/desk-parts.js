@@ -26,6 +26,13 @@ function deskSaid(text) {
   return text ? [make("p", { class: "said" }, ...coded(text))] : [];
 }
 
+/** A message: its sentences, and its lines of code, which keep their columns. */
+function deskMessage(blocks) {
+  return blocks.flatMap(([isCode, text]) =>
+    isCode ? make("pre", { class: "log", tabindex: "0" }, text) : deskSaid(text),
+  );
+}
+
 /** What explains a wrong step; a known mistake leads to the next one who made it. */
 function deskDiagnosis(found, onMistake) {
   const parts = [make("p", { class: "cause" }, make("strong", {}, found.sure), " ", ...coded(found.title))];
@@ -86,7 +93,7 @@ function deskList(names) {
 
 /** Tests, hidden part, pictures and messages of a step, what is wrong first. */
 function deskChecks(step, onMistake) {
-  const parts = step.messages.flatMap(deskSaid);
+  const parts = step.messages.flatMap(deskMessage);
   step.diagnoses.forEach((found) => {
     const title = found.title;
     parts.push(deskDiagnosis(found, onMistake(title)));
