@@ -74,6 +74,14 @@ _WRONG = {
     "glm::vec3 f(const Hit& v) { return v * v; }": "",
     "void f() { g() }": "has not met this name above",
     "int f(std::vector<glm::vec3> v) { return v * 2; }": "",
+    "void f() { int a\nint b = 1; }": "semicolon is missing",
+    "int f() { return 1 }": "semicolon is missing",
+    "glm::vec3 f(const Hit& h) { return h.distance + 1.0 * 2 * h.distance * glm::vec3{}; }": "takes floats only",
+    "float f(float a, float b) { return 2.0F * a ^ b; }": "a power is std::pow",
+    "float f(float a) { return a % 2; }": "a remainder std::fmod",
+    "const char* f() { return \u201chello\u201d; }": "type it anew",
+    "float f(float a) { return 2.0F \u2013 a; }": "type it anew",
+    "int f() { return 1; }\nint f() { return 1; }": "keep one of them",
     "float f(float a, float b, float c) { return std::max(a, b, c); }": "for three write",
 }
 _BEGIN = "#include <algorithm>\n#include <glm/glm.hpp>\n#include <optional>\n#include <vector>\n"
@@ -103,6 +111,9 @@ def test_beginners_are_told_in_other_words(shadows: Step, tmp_path: Path, compil
         ("C2039: 'distance': is not a member of 'std::optional<raysteps::Hit>'", "ask has_value() first"),
         ("C2511: 'float Hit::twice(void)': overloaded member function not found in 'Hit'", "as the header declares it"),
         ("C1075: '{': no matching token found", "closing brace is missing"),
+        ("C2146: syntax error: missing ';' before identifier 'b'", "semicolon is missing"),
+        ("C2296: '^': illegal, left operand has type 'float'", "a power is std::pow"),
+        ("C2084: function 'int f(void)' already has a body", "keep one of them"),
         ("C3490: 'x' cannot be modified because it is being accessed through a const object", "change a copy"),
     ],
 )

@@ -8,6 +8,7 @@ import pytest
 from raysteps.common.process import run
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import included, pristine_stub
+from raysteps.grading.build_messages import why_not_built
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.compile import Compiled, StudentBuild, build_log
@@ -82,6 +83,14 @@ def test_names_of_headers_that_a_file_does_not_include_stay_free(kit: BuiltKit, 
     line = "#include <algorithm>\n"
     assert code(line) != 0
     assert [code(more) for more in ("", f"/*\n{line}*/\n", f"// {line}", f"#if 0\n{line}#endif\n")] == [0, 0, 0, 0]
+
+
+def test_a_file_that_holds_all_of_it_twice_is_told_so(kit: BuiltKit, solved: dict[str, str], tmp_path: Path) -> None:
+    step = next(step for step in kit.steps if step.number == _STEP)
+    source = 2 * f"{solved[step.id]}\n"
+    message = why_not_built(kit, step, _compiled(kit, step, source, tmp_path, LimitsOnly()), source)
+    assert "redefinition of" in message
+    assert "It stands in this file twice" in message
 
 
 def test_messages_name_the_students_file(kit: BuiltKit, solved: dict[str, str], tmp_path: Path) -> None:

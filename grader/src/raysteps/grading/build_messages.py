@@ -80,7 +80,7 @@ def _more(errors: list[_Error]) -> str:
 # JavaScript reads these patterns, too.
 IN_OTHER_WORDS = (
     (
-        r"(?:'operator[-+*/]=?' \(operand types are|invalid operands|C267[6-9]: binary '[-+*/])"
+        r"(?:'operator[-+*/]=?'(?: in '.*')? \(operand types are|invalid operands|C267[6-9]: binary '[-+*/])"
         r"(?=.*'(?:const )?(?:glm::)?vec\W?\d)(?=.*'(?:const )?(?:unsigned |long )*(?:int|double|long)\b)",
         "A vector of glm takes floats only: write 2.0F, not 2 or 2.0, or float(x).",
     ),
@@ -115,6 +115,24 @@ IN_OTHER_WORDS = (
         "A closing brace is missing somewhere above: each { needs one.",
     ),
     (
+        r"expected (?:(?:',' or )?';'|initializer before)|C2143: .*';'|C2146: .*';'",
+        "A semicolon is missing, here or at the end of the line before.",
+    ),
+    (
+        r"binary 'operator[%^]'|C229[67]: '[%^]'"
+        r"|invalid operands to binary expression \('(?:const )?(?:float|double|int)' "
+        r".*and '(?:const )?(?:float|double|int)'",
+        "Neither ^ nor % takes floats: a power is std::pow(a, b) or a * a, a remainder std::fmod(a, b).",
+    ),
+    (
+        r"extended character|stray '\\|unexpected character <U\+|non-ASCII|C3872:|C2018:",
+        'This sign looks like one of C++, but is another: type it anew, such as " for a curved quote, - for a dash.',
+    ),
+    (
+        r"redefinition of|C2084:",
+        "It stands in this file twice: keep one of them.",
+    ),
+    (
         r"discards qualifiers|read-only|cannot assign to .* const|C2166:|C3490:",
         "What is const stays as it is: change a copy, or mark a function that changes nothing as const.",
     ),
@@ -143,7 +161,7 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         said = shorten(error.text, 300)
         text = f"It does not build: {place}: {said}"
         if own:
-            text += f"\n{_context(source, error.line, error.column)}{_other_words(said)}{_more(own)}"
+            text += f"\n{_context(source, error.line, error.column)}{_other_words(shorten(error.text))}{_more(own)}"
         return text
     telling = [line for line in output.splitlines() if re.search("error:|terminated|Error", line)]
     said = shorten(telling[-1] if telling else output.strip().rpartition("\n")[2], 300)

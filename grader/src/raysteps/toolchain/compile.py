@@ -248,10 +248,11 @@ class StudentBuild:
         description = self._kit.description
         words: list[Word] = [description.compiler, *description.compile_flags]
         needed, there = (
-            set(included(text)) for text in (pristine_stub(self._kit.project, step), source.decode("utf-8", "replace"))
+            included(text) for text in (pristine_stub(self._kit.project, step), source.decode("utf-8", "replace"))
         )
-        if needed <= there:
-            words += ["-I", Input(self._kit.folder / "precompiled")]  # names that the file does not include stay out
+        # Names that the file does not include stay out; and GCC takes a precompiled header once only.
+        if set(needed) <= set(there) and len(there) == len(set(there)):
+            words += ["-I", Input(self._kit.folder / "precompiled")]
         words += include_words(description, Input(self._kit.include), [Input(it) for it in description.more_includes])
         words += compile_words(description, Input(path, step.file), Output("object"))
         ran = self._run(limits, *words)
