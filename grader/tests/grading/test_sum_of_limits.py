@@ -84,6 +84,18 @@ def test_who_runs_into_limits_is_not_waited_for(steps: list[Step], tmp_path: Pat
     assert sandbox.seconds[before:] == [8, 8, 2, 2]
 
 
+def test_a_program_that_gives_up_in_a_test_is_told_with_its_last_words(steps: list[Step]) -> None:
+    class GivesUp:
+        isolation = Isolation()
+
+        def run(self, task: Task) -> TaskResult:
+            return TaskResult(Outcome(1, False, "", "a\nwithout an end", 0.1), {}, 0.1, "")
+
+    (result,) = run_tests(GivesUp(), Program(("tests",)), {"a": ["build"]}, limits_of(steps[0], {}))
+    assert result.outcome == "crashed"
+    assert "ended in the middle of the test, with exit code 1: without an end. A debugger" in result.message
+
+
 def _ended(name: str, seconds: float, *, passed: bool = True) -> str:
     success = str(passed).lower()
     overall = f'<OverallResult success="{success}" durationInSeconds="{seconds}"/>'

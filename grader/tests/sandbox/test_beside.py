@@ -63,6 +63,12 @@ def test_what_it_tells_of_the_wire_ends_the_step(any_sandbox: Sandbox, hostile: 
     assert "something else than the step's functions" in ran.outcome.stderr
 
 
+def test_functions_without_an_end_are_told_of_whoever_sees_them(any_sandbox: Sandbox, hostile: Path) -> None:
+    box = ("/usr/bin/env", "sh", "-c", "exit 72")
+    ran = any_sandbox.run(Task(box, _LIMITS, tools=True, beside=Beside((Input(hostile), "code", "70"))))
+    assert (ran.outcome.code, ran.outcome.stderr) == (1, "the functions called each other without an end")
+
+
 def test_an_ending_that_it_does_not_have_is_the_kits_fault(any_sandbox: Sandbox, hostile: Path) -> None:
     with pytest.raises(GraderFault, match="ended with 99"):
         _ask(any_sandbox, hostile, "code", "99")

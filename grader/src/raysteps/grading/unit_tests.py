@@ -10,7 +10,7 @@ from itertools import chain
 from raysteps.common.text import join_and, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import called_functions, unfinished_functions
-from raysteps.images.render import not_in_time
+from raysteps.images.render import exit_words, not_in_time
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 from raysteps.sandbox.task import Output, Sandbox, TaskResult, Word
 from raysteps.toolchain.catch2 import THREW, CutReport, TestOutcome, parse_cut_report, parse_report
@@ -88,7 +88,7 @@ def _why_cut_short(ran: TaskResult) -> str:
     words = ran.outcome.signal_words
     if words is not None:
         return f"The program crashed in the middle of the test ({words}). {FIND_THE_LINE}"
-    return f"The program ended in the middle of the test, with exit code {ran.outcome.code}. {FIND_THE_LINE}"
+    return f"The program ended in the middle of the test, with {exit_words(ran.outcome)}. {FIND_THE_LINE}"
 
 
 def run_tests(

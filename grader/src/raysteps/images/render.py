@@ -9,7 +9,7 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash, write_bytes, write_json
-from raysteps.common.process import run
+from raysteps.common.process import Outcome, run
 from raysteps.common.text import in_seconds, printable, shorten
 from raysteps.course.manifest import ImageCase, Step, earlier, with_option
 from raysteps.course.project import Project
@@ -341,6 +341,12 @@ def not_in_time(what: str, seconds: float, *, sooner: bool) -> str:
     return f"{what} was stopped after {in_seconds(seconds)}. {ENDLESS}"
 
 
+def exit_words(outcome: Outcome) -> str:
+    """The exit code of a program that gave up, and its last words."""
+    said = shorten(printable(outcome.stderr.strip().rpartition("\n")[2]), 200)
+    return f"exit code {outcome.code}" + (f": {said}" if said else "")
+
+
 def describe_exit(ran: TaskResult, what: str, *, sooner: bool = False) -> tuple[Termination, str]:
     """`what` is what the program was to make, such as `The picture`. Only for a program that did not make it."""
     outcome = ran.outcome
@@ -351,10 +357,8 @@ def describe_exit(ran: TaskResult, what: str, *, sooner: bool = False) -> tuple[
     if outcome.signal_name is not None:
         return "crashed", f"{what} was not made: the program crashed ({outcome.signal_words})."
     if outcome.code != 0:
-        said = shorten(printable(outcome.stderr.strip().rpartition("\n")[2]), 200)
-        return "crashed", f"{what} was not made: the program gave up with exit code {outcome.code}" + (
-            f": {said}" if said else "."
-        )
+        words = exit_words(outcome)
+        return "crashed", f"{what} was not made: the program gave up with {words}{'' if ': ' in words else '.'}"
     return "wrong", ""
 
 

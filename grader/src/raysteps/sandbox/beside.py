@@ -198,8 +198,9 @@ def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
     if 0 <= outside.code < _CLOSED:  # nothing was left to ask: whatever the box does afterwards
         ended = Outcome(outside.code, False, outside.stdout, inside.outcome.stderr + outside.stderr, outside.seconds)
         return TaskResult(ended, outside.outputs, cpu_seconds, "")
-    if outside.code in _WHY_BROKEN:
-        ended = replace(outcome, code=1, timed_out=False, stderr=_WHY_BROKEN[outside.code])
+    why = _WHY_BROKEN.get(inside.outcome.code if outside.code == _CLOSED else outside.code)  # whoever saw it first
+    if why is not None:
+        ended = replace(outcome, code=1, timed_out=False, stderr=why)
         return TaskResult(ended, outside.outputs, cpu_seconds, "")
     if outside.timed_out and not inside.stopped:
         ended = replace(outcome, code=-signal.SIGKILL, timed_out=True, seconds=outside.seconds)
