@@ -167,6 +167,16 @@ def test_whoever_waits_for_known_mistakes_hears_what_came_of_it(
     assert ("the one mistake" in said, "none of them explains" in said) == (named, not named and outcome == "wrong")
 
 
+def test_files_of_the_kit_that_changed_are_named_below_the_results(
+    course: Project, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_own(course, read_steps(course)[0], _CODE)
+    for changed in ("", "Not as the kit was given out: a.hpp."):
+        monkeypatch.setattr(check_command, "about_changed", lambda _, said=changed: said)
+        assert check_command.run(course, Namespace(steps=["01"]), Console(width=200)) == 0
+        assert capsys.readouterr().out.count("Not as the kit was given out: a.hpp.\n") == bool(changed)
+
+
 def test_the_report_tells_how_it_went_and_what_is_newer_than_its_check(course: Project) -> None:
     _check(course, 1)
     assert "How it went" not in _page(course)

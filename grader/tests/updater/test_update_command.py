@@ -3,17 +3,18 @@
 import os
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
 from update_kits import NEW, OLD, OWN, STEPS, WORK, expect_done, files_of, mine, newer, release
 
 from raysteps.cli import update as command
-from raysteps.cli.app import new_parser
-from raysteps.common.errors import UsageError
+from raysteps.cli.app import main, new_parser
+from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import content_hash
 from raysteps.course.project import Project
-from raysteps.updater.release_list import PLACE
+from raysteps.updater.release_list import PLACE, about_changed, changed_files
 
 __all__ = ["mine", "newer"]  # pytest finds fixtures by name
 
@@ -50,6 +51,33 @@ def test_it_names_what_it_did(mine: Path, newer: Path, capsys: pytest.CaptureFix
         "framework/core/gone.hpp.mine, framework/core/ray.hpp.mine and 1 more.",
         f"Course: release {after} with 3 steps.",
     ]
+
+
+def test_files_of_the_kit_that_a_check_goes_by_are_named_when_they_changed(mine: Path, tmp_path: Path) -> None:
+    assert about_changed(mine) == ""
+    (mine / "framework/core/ray.hpp").write_bytes(b"old ray\r\n")  # as Windows writes it
+    (mine / "README.md").write_bytes(b"mine\n")
+    assert about_changed(mine) == ""
+    (mine / "framework/core/ray.hpp").write_bytes(b"my ray\n")
+    (mine / "framework/core/gone.hpp").unlink()
+    assert changed_files(mine) == ["framework/core/ray.hpp", "framework/core/gone.hpp"]
+    assert "not handed in: framework/core/ray.hpp, framework/core/gone.hpp. Your course" in about_changed(mine)
+    assert about_changed(tmp_path) == ""
+
+
+def test_a_fault_names_files_of_the_kit_that_changed(
+    mine: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail(*_: object) -> int:
+        raise GraderFault("a part of the kit cannot be linked: primary_ray")
+
+    monkeypatch.setattr("raysteps.cli.app.here", lambda: Project(mine))
+    monkeypatch.setattr("raysteps.cli.app._module", lambda *_: SimpleNamespace(run_words=fail))
+    assert main(["list"]) == 4
+    assert "not handed in" not in capsys.readouterr().err
+    (mine / "framework/core/ray.hpp").write_bytes(b"my ray\n")
+    assert main(["list"]) == 4
+    assert "not handed in: framework/core/ray.hpp. " in capsys.readouterr().err
 
 
 def test_what_setting_up_made_is_not_the_students_own(

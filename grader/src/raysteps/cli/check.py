@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from rich.console import Console
+from rich.text import Text
 
 from raysteps.course.manifest import STEPS_HELP, chosen_steps
 from raysteps.course.project import Project
@@ -14,6 +15,7 @@ from raysteps.progress.check import check_steps
 from raysteps.progress.standing import ALL_DONE
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command, watch_command
+from raysteps.updater.release_list import about_changed
 
 if TYPE_CHECKING:
     from raysteps.progress.own_check import CheckResult
@@ -55,6 +57,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         print_diagnoses(console, checked.results)
     elif has_learned and any(map(_is_unexplained, checked.results.steps)):
         console.print("The known mistakes are learned; none of them explains what is wrong.")
+    changed = about_changed(project.root)
+    if changed:
+        console.print(Text(changed, "yellow"))
     code = exit_code(checked.results)
     if code == 0 and checked.following is not None:
         console.print(f"Next: {watch_command(checked.following.id)}")

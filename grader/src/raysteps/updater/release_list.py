@@ -186,6 +186,31 @@ def _is_as_released(path: Path, file: ListedFile | None) -> bool:
         return False
 
 
+_MOST_NAMED = 5
+_BUILT = ("CMakeLists.txt", "cmake/", "framework/", "scenes/", "steps/")  # or drawn, or tested with
+
+
+def changed_files(root: Path) -> list[str]:
+    """Files of the kit that a check goes by, and that are not as they were given out; none where nothing was."""
+    release = read_release(root)
+    files = [] if release is None else [file for file in release.files if file.owner == "kit"]
+    named = [file for file in files if file.path.startswith(_BUILT) and not file.path.endswith(".md")]
+    return [file.path for file in named if not _is_as_released(root / file.path, file)]
+
+
+def about_changed(root: Path) -> str:
+    """What to say of them: a line of code that went into the wrong file may break what is right. Nothing where all are
+    as they were."""
+    names = changed_files(root)
+    if not names:
+        return ""
+    more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
+    return (
+        f"Not as the kit was given out, and not handed in: {', '.join(names[:_MOST_NAMED])}{more}. Your course grades "
+        "with the kit's own: put back what it had, with `git restore` or from a fresh copy."
+    )
+
+
 def own_files(root: Path, kit: Release) -> list[str]:
     """All that is not as in this kit, steps first."""
     listed = kit.by_path()
