@@ -117,7 +117,8 @@ def test_what_goes_wrong_with_one_stops_none(tmp_path: Path, capsys: pytest.Capt
     assert "Traceback" in (out / "submissions" / "oops" / "fault.txt").read_text()
     assert not (out / "submissions" / "oops" / "results.json").exists()
     unread = json.loads((out / "submissions" / "empty" / "results.json").read_text())
-    assert "holds no step" in unread["steps"][0]["messages"][0]
+    said = f"it holds no step; expected files like steps/{FIRST}."
+    assert unread["steps"][0]["messages"] == [f"Nothing was taken from this submission: {said}"]
     assert str(tmp_path) not in json.dumps(unread)
     printed = capsys.readouterr()
     assert "fault: the moon is in the way" in printed.out

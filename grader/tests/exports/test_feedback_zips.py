@@ -161,7 +161,7 @@ def test_canvas_gets_the_names_that_it_gave(tmp_path: Path, capsys: pytest.Captu
     with zipfile.ZipFile(io.BytesIO(found[4711]["steps.zip"])) as inner:
         assert inner.namelist() == ["report.html"]
         assert inner.read("report.html") == _report(graded, "leeann_4711_815_steps")
-    assert "stranger: stranger: is no name of a download of Canvas" in capsys.readouterr().err
+    assert "nothing for stranger: what was handed in is not named as in a download of Canvas" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("ending", [".tar.gz", ".tgz", ".tar.bz2", ".txz", ".tar"])

@@ -353,7 +353,7 @@ def test_how_to_repeat_a_test_is_not_why_it_failed(case: Case, steps: list[Step]
 def test_one_reason_for_all_steps_is_said_once(case: Case, steps: list[Step]) -> None:
     document = mixed(steps)
     for at, step in enumerate(document.steps):
-        said = ["Nothing was taken from this submission: is no zip"]
+        said = ["Nothing was taken from this submission: it is no zip."]
         document.steps[at] = StepResult(step.id, "not-started", 0.0, step.max, step.bonus, messages=said)
     document.total.points = 0.0
     cell = _comment(case, document)

@@ -53,7 +53,7 @@ def test_a_folder_for_each_student_and_the_stubs_apart(
     assert (out / "submissions/bob" / steps[1].path).read_text().endswith("// mine\n")
     assert {step.id: (out / "base-code" / step.path).read_text() for step in steps} == unsolved
     assert said.out == "java -jar jplag.jar -l cpp -bc base-code --result-file similarity submissions\n"
-    assert "cy is left out: holds no step that was begun" in said.err
+    assert "cy is left out: it holds no step that was begun" in said.err
     assert "notes.txt is left out" in said.err
 
 

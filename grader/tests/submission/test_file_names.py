@@ -66,7 +66,7 @@ def test_letters_of_other_alphabets_are_not_taken_for_ours(tmp_path: Path, steps
 def test_close_names_are_explained(tmp_path: Path, steps: list[Step], name: str) -> None:
     submission = load_submission(_folder(tmp_path, name, "octree.cpp"), steps)
     assert set(submission.sources) == {"06-octree"}
-    assert submission.notes == {"04-shadows": f"{name} was not taken: expected is {GOOD}."}
+    assert submission.notes == {"04-shadows": f"{name} was not taken: it must be {GOOD}."}
 
 
 @pytest.mark.parametrize("name", ["shadows (1).cpp", "steps/04-shadows/shadows_test.cpp", "shadows.cpp~"])
@@ -149,7 +149,7 @@ def test_unusual_places_are_named(tmp_path: Path, steps: list[Step], names: list
     submission = load_submission(_folder(tmp_path, *names), steps)
     assert len(submission.sources) == len(names)
     said = " ".join(submission.remarks.values())
-    assert [name for name in names if f"It was found at {name}; expected is steps/" in said] == unusual
+    assert [name for name in names if f"It was found at {name}; it belongs at steps/" in said] == unusual
     assert len(submission.remarks) == len(unusual)
 
 

@@ -146,7 +146,7 @@ class LoadedEntry:
     unreadable: bool = False
 
 
-NOTHING_TAKEN = "Nothing was taken from this submission: "  # before why
+NOTHING_TAKEN = "Nothing was taken from this submission: it "  # before why
 
 
 def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
@@ -162,7 +162,7 @@ def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
                 raise GraderFault(f"the submission cannot be read: {error}") from error
             cause = cause.__cause__
         reason = printable(without_place(error, path))
-        notes = {step.id: f"{NOTHING_TAKEN}{reason}" for step in steps}
+        notes = {step.id: f"{NOTHING_TAKEN}{reason}." for step in steps}
         return LoadedEntry(Submission(name, {}, notes), unreadable=True)
     except GraderFault:
         raise

@@ -215,6 +215,9 @@ def packed(entry: str, members: Sequence[Member]) -> bytes:
     return buffer.getvalue()
 
 
+_NOT_OF_CANVAS = "what was handed in is not named as in a download of Canvas, such as leeann_4711_815_steps.zip"
+
+
 def canvas_zip(deliveries: Deliveries) -> bytes:
     """One file for each submission: of a team Canvas itself tells the others. What Canvas did not name, or named
     once for two, goes over to the others."""
@@ -225,8 +228,7 @@ def canvas_zip(deliveries: Deliveries) -> bytes:
     for at, one in enumerate(deliveries.given):
         entry = one.student.entry
         if at not in uploads or at in rivals:
-            why = f"{entry or one.student.submission}: is no name of a download of Canvas"
-            deliveries.leave_out(one, rivals.get(at, why))
+            deliveries.leave_out(one, rivals.get(at, _NOT_OF_CANVAS))
             continue
         name = entry if stem(entry) != entry else f"{entry}.zip"
         members[entry] = Member(name, packed(name, [Member(REPORT, one.report_bytes())]))
@@ -239,4 +241,6 @@ def refuse_nobody(deliveries: Deliveries, folder: Path) -> None:
     """Where nothing can be given back, the reasons say what to do."""
     if not deliveries.given:
         reasons = list(dict.fromkeys(other.why for other in deliveries.others))[:3]
-        raise UsageError(f"{folder}: nothing can be given back: {join_and(reasons)}" if reasons else f"{folder}: empty")
+        raise UsageError(
+            f"{folder}: nothing can be given back: {'; '.join(reasons)}" if reasons else f"{folder}: empty"
+        )

@@ -58,7 +58,7 @@ def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], le
         except UsageError as error:
             started, note = {}, str(error).removeprefix(f"{entry.path}: ")
         if note:
-            print(f"raysteps: {clean(entry.label)} is left out: {clean(note)}", file=sys.stderr)
+            print(f"raysteps: {clean(entry.label)} is left out: it {clean(note)}", file=sys.stderr)
         else:
             found[names[entry.label]] = started
     return found

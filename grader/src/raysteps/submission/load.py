@@ -152,7 +152,7 @@ class _Collector:
             near = self._places.near(entry.parts)
             if near is not None:
                 expected = f"steps/{self._steps[near].path.as_posix()}"
-                self._near.setdefault(near, f"{shown(entry.parts)} was not taken: expected is {expected}.")
+                self._near.setdefault(near, f"{shown(entry.parts)} was not taken: it must be {expected}.")
 
     def _take_at(self, place: Place, entry: Entry) -> None:
         best = self._found.get(place.step)
@@ -211,7 +211,7 @@ class _Collector:
         if not found.place.exact:
             remarks.append(f"{found.path} was taken for {expected}.")
         elif step in unusual:
-            remarks.append(f"It was found at {found.path}; expected is {expected}.")
+            remarks.append(f"It was found at {found.path}; it belongs at {expected}.")
         copies = sorted(self._copies.get(step, []))
         if copies:
             remarks.append(f"{join_and(copies)} {'was' if len(copies) == 1 else 'were'} left out beside {found.path}.")
