@@ -170,6 +170,7 @@ def test_a_request_and_its_answer(pages: Watched, server: DeskServer, grades: Pa
     _press(page, "u")
     page.locator("#asks").check()
     _shows(page, "Ann")
+    assert page.locator("tbody tr:not([hidden]) .desk-mark").all_inner_texts() == ["1 open request"]
     _press(page, "Escape", "Enter")
     page.locator("tbody tr:not([hidden]) a").press("Enter")
     _is_open(page, "ann")

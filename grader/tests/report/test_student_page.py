@@ -296,6 +296,15 @@ def test_only_png_files_of_the_folder_are_shown(steps: list[Step], tmp_path: Pat
     assert student_page(document, folder, steps).count("data:image/png") == shown - 4  # two pictures and their maps
 
 
+def test_steps_that_were_not_run_together_are_not_called_wrong(steps: list[Step], tmp_path: Path) -> None:
+    step = steps[2]
+    assert {part.said for part in parts_of(idle_step(step), step)} == {"not run"}
+    result = passed_step(step, tmp_path)
+    for passed, word in ((True, "right"), (False, "wrong")):
+        result.cumulative.passed = passed
+        assert parts_of(result, step)[-1].said == word
+
+
 def test_a_student_kit_without_a_judge_has_no_hidden_part(steps: list[Step], tmp_path: Path) -> None:
     step = steps[2]
     result = passed_step(step, tmp_path)

@@ -156,6 +156,11 @@ def _right(items: Sequence[TestResult | ImageResult], noun: str, share: float) -
     return (f"{percent(share)}: {right} of {count(len(items), noun)} right" if items else "not run", share)
 
 
+def _one(passed: bool, result: StepResult) -> str:
+    """Of the picture of all steps together, which is drawn where those of the step are."""
+    return "right" if passed else "wrong" if result.images else "not run"
+
+
 def parts_of(result: StepResult, step: Step | None) -> list[Part]:
     """Tests, pictures, hidden and together; without the hidden part where the kit cannot judge it. Nothing when the
     step's weights are not known."""
@@ -166,7 +171,7 @@ def parts_of(result: StepResult, step: Step | None) -> list[Part]:
         ("tests", _right(result.tests, "test", result.share_of_tests), step.weight_tests),
         ("pictures", _right(result.images, "picture", result.share_of_images), step.weight_images),
         ("hidden", (percent(share) if result.hidden else "not run", share), step.weight_hidden),
-        ("together", ("right" if together else "wrong", float(together)), step.weight_together),
+        ("together", (_one(together, result), float(together)), step.weight_together),
     ]
     if result.max < step.points - _NEAR:
         found = [part for part in found if part[0] != "hidden"]

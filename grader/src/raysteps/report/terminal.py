@@ -45,6 +45,8 @@ _WARNING = re.compile(
     r"warning(?: C\d{1,6})?: .{1,300}?)(?: \[-W[\w=+-]{1,60}\]|$|(?<=.{300}))",
     re.M,
 )
+_WHOLE_NUMBERS = re.compile(r"conversion [^\n]{0,40}'(?:const )?int' to '(?:const )?float'")
+_DIVIDED = "Of whole numbers 1 / 2 is 0: where they are divided, write float(a) / float(b)."
 
 
 def _print_hanging(console: Console, head: str, text: str) -> None:
@@ -171,7 +173,9 @@ def print_details(
         if own and result.status not in ("passed", "does-not-build"):
             warnings = dict.fromkeys(found["text"] for found in _WARNING.finditer(result.build_log))
             for warning in list(warnings)[:_MAX_WARNINGS]:
-                _print_hanging(console, "  [yellow]warning[/yellow]  ", warning)
+                _print_hanging(console, "  [yellow]warning[/yellow]  ", warning.replace(": warning: ", ": ", 1))
+                if _WHOLE_NUMBERS.search(warning):
+                    _print_below(console, _DIVIDED)
         once = SaidOnce(result.messages)
         for diagnosis in () if own else result.diagnoses:
             _print_diagnosis(console, diagnosis)
@@ -185,7 +189,7 @@ def print_details(
                 _print_image(console, image, out, once)
                 worst = inspect_worst(known[result.id], image, out) if own else None
                 if worst is not None:
-                    console.print(f"{' ' * _INDENT}{'inspect':<{_LABEL}}{escape(typed(worst))}", soft_wrap=True)
+                    console.print(f"{' ' * _INDENT}{'worst':<{_LABEL}}{escape(typed(worst))}", soft_wrap=True)
         if known[result.id].is_about_a_tree:
             _print_tier(console, result, known[result.id])
         for item in result.hidden:

@@ -18,11 +18,12 @@ const deskKeys = [
   ["?", "this help"],
 ];
 
+const counted = (number, noun) => `${number} ${noun}${number === 1 ? "" : "s"}`;
 const deskMarks = [
-  ["open", ({ open }) => open && `${open} open`, "bad"],
+  ["open", ({ open }) => open && counted(open, "open request"), "bad"],
   ["look", ({ look }) => look.length && "look", "bad"],
   ["changed", ({ changed }) => changed.length && "changed", ""],
-  ["comments", ({ comments }) => comments && `${comments} said`, ""],
+  ["comments", ({ comments }) => comments && counted(comments, "comment"), ""],
 ];
 
 class Desk {
