@@ -267,11 +267,16 @@ def test_students_get_the_parts_of_the_course(
         first_steps(["8"], second[:7], others=second[7:])
 
 
+@pytest.mark.parametrize("course", ["parts = [2]", 'steps = "1-5"'])
 def test_a_course_without_trees_ranks_nobody(
-    kit: Project, settle: Callable[[str], Path], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    kit: Project,
+    settle: Callable[[str], Path],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    course: str,
 ) -> None:
     _add(kit, "09-bvh", "left_out = true")
-    settle("parts = [2]")
+    settle(course)
     monkeypatch.setattr(cli, "here", lambda: kit)
     assert cli.main(["leaderboard", str(kit.root)]) == UsageError.exit_code
     assert "no step of this course has a tree whose work is counted" in capsys.readouterr().err

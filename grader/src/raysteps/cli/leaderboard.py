@@ -19,7 +19,7 @@ from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, chosen_steps, read_steps
+from raysteps.course.manifest import Step, chosen_steps, course_steps, read_steps
 from raysteps.course.project import Project
 
 
@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="STEP",
-        help="such as 06 or 6,9 (all with counters)",
+        help="such as 06 or 6,9 (those of the course with counters)",
     )
     parser.add_argument("--anonymous", action="store_true", help="leave the names out")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the ranking there, too")
@@ -45,9 +45,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _steps(project: Project, names: list[str]) -> list[Step]:
     counted = [step.id for step in read_steps(project) if step.limited_pictures]
-    if not counted:
+    ours = [step.id for step in course_steps(project) if step.id in counted]
+    if not (names and counted) and not ours:
         raise UsageError("no step of this course has a tree whose work is counted, so there is nothing to rank")
-    chosen = chosen_steps(project, names or counted)
+    chosen = chosen_steps(project, names or ours)
     for step in chosen:
         if step.id not in counted:
             raise UsageError(f"--step: in {step.id} no work is counted; expected {join_and(counted)}")
