@@ -7,14 +7,18 @@ from pathlib import Path
 import pytest
 from conftest import Sources
 
+from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.grading import unit_tests
 from raysteps.grading.self_check import name_crash
-from raysteps.grading.unit_tests import FIND_THE_LINE, crash_line, hang_line, has_crashed
+from raysteps.grading.unit_tests import FIND_THE_LINE, crash_line, hang_line, has_crashed, tell_crash_line
 from raysteps.results.model import StepResult, TestResult
 from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.sandbox.task import Isolation, Task, TaskResult
 from raysteps.submission.load import Submission
+from raysteps.toolchain.compile import Program
 from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.limits import limits_of
 from raysteps.watch.worker import QuickLook
 
 _ID = "02-intersection"
@@ -83,6 +87,26 @@ def test_only_what_is_named_needs_no_debugger(
     name_crash(kit.in_one_process(), Submission("a", {_ID: source}, {}), LimitsOnly(), lambda _: None, [found])
     assert [test.message for test in tests] == [f"It crashed ({names[0]}).\nhit.cpp, line 7.", *words[1:]]
     assert found.messages == ["3 of 3 tests failed.", tests[0].message], "the line is told above all checks, too"
+
+
+def test_what_happened_on_the_line_takes_the_place_of_guesses(
+    steps: list[Step], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Silent:
+        isolation = Isolation()
+
+        def run(self, task: Task) -> TaskResult:
+            return TaskResult(Outcome(-11, False, "", "", 0.1), {}, 0.1, "")
+
+    def told(line: str) -> str:
+        monkeypatch.setattr(unit_tests, "crash_line", lambda said, files, *, threw: line)
+        guess = "The program crashed (SIGSEGV: memory that is not its own, or a recursion without an end)."
+        test = TestResult("a", False, f"{guess} {FIND_THE_LINE}", outcome="crashed")
+        assert tell_crash_line(Silent(), Program(("tests",)), test, limits_of(steps[0], {}), ["a.cpp"])
+        return test.message
+
+    assert told("a.cpp, line 7, in f: no return.") == "The program crashed (SIGSEGV).\na.cpp, line 7, in f: no return."
+    assert "or a recursion without an end)." in told("a.cpp, line 7.")
 
 
 def test_who_does_not_crash_waits_for_nothing(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:

@@ -295,6 +295,9 @@ def hang_line(said: str, files: Collection[str]) -> str:
     return f"{stuck.file}, {words}, in {stuck.function}: still at work when it was stopped."
 
 
+_GUESS = re.compile(r"\((SIG[A-Z]{2,5}): [^()]{1,100}\)")
+
+
 def tell_crash_line(
     sandbox: Sandbox, sanitized: Program, test: TestResult, limits: StepLimits, files: Collection[str]
 ) -> bool:
@@ -308,7 +311,10 @@ def tell_crash_line(
     else:
         found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
     if found:
-        test.message = f"{test.message.removesuffix(FIND_THE_LINE).strip()}\n{found}".strip()
+        known = test.message.removesuffix(FIND_THE_LINE).strip()
+        if ": " in found:  # what happened there: no guess by the signal is wanted any more
+            known = _GUESS.sub(r"(\1)", known, count=1)
+        test.message = f"{known}\n{found}".strip()
     return bool(found)
 
 
