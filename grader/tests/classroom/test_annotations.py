@@ -101,6 +101,27 @@ def test_points_and_comments_stand_in_every_file(grades: Path) -> None:
     assert "Ada" not in _report(grades, "bob")
 
 
+def test_the_printed_table_has_points_for_what_was_not_started(
+    handed_in: Path, grades: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _say(grades, "points", step="03-phong-shading", points=15)
+    _, steps, marks = _printed_table(handed_in, grades, "1-4", capsys)
+    assert steps == ["4", "-", "15 -", "-", "19"]
+    assert marks == "- not started"
+    assert "bonus" in _printed_table(handed_in, grades, "1-9", capsys)[2]
+
+
+def _printed_table(
+    handed_in: Path, grades: Path, steps: str, capsys: pytest.CaptureFixture[str]
+) -> tuple[str, list[str], str]:
+    """The name and the cells of its first row, and what is said of its marks."""
+    capsys.readouterr()
+    assert grade_class(handed_in, "--out", grades, "--only", steps) == 0
+    lines = capsys.readouterr().out.splitlines()
+    name, *cells = (cell.strip() for cell in next(line for line in lines if "│ ann" in line).strip("│").split("│"))
+    return name, cells, lines[next(at for at, line in enumerate(lines) if line.startswith("└")) + 1]
+
+
 def test_they_survive_a_resume_and_a_whole_regrade(tmp_path: Path, handed_in: Path, grades: Path) -> None:
     _say(grades, "points", step=_STEP, points=6.5, text="x")
     _say(grades, "comment", step=_STEP, line=3, text="why two?")

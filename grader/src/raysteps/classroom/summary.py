@@ -96,16 +96,23 @@ class ProgressMeter:
 _MARKS: dict[Status, str] = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
 _SIGNS = {str(status): mark for status, mark in _MARKS.items()}
 _MAX_MISTAKES = 10
-_LEGEND = ", ".join(f"{mark} {in_words(status)}" for status, mark in _MARKS.items())
 
 
 def _cell(step: StepPoints | None) -> str:
     if step is None:
         return ""
     mark = _SIGNS.get(step.status, "")
-    shown = "-" if mark == "-" else tenths(step.points) + (f" {mark}" if mark else "")
-    color = "green" if step.status == "passed" else "dim" if mark == "-" else "yellow" if step.points else "red"
+    idle = mark == "-" and not step.points  # somebody may have given points for it
+    shown = mark if idle else f"{tenths(step.points)} {mark}".rstrip()
+    color = "green" if step.status == "passed" else "dim" if idle else "yellow" if step.points else "red"
     return f"[{color}]{shown}[/{color}]"
+
+
+def _legend(document: ClassResults) -> str:
+    """Of the marks that the table has."""
+    there = {step.status for one in document.submissions for step in one.steps.values()}
+    marks = [f"{mark} {in_words(status)}" for status, mark in _MARKS.items() if status in there]
+    return ", ".join([*marks, *(["* bonus"] if any(step.bonus for step in document.steps) else [])])
 
 
 def _total(one: GradedSubmission) -> str:
@@ -229,7 +236,8 @@ def _print_apart(console: Console, document: ClassResults) -> None:
 def print_summary(console: Console, document: ClassResults, out: Path) -> None:
     """The table, what needs a person's eye, and where the files are."""
     console.print(_table(document))
-    console.print(f"[dim]{_LEGEND}; * bonus[/dim]")
+    if _legend(document):
+        console.print(f"[dim]{_legend(document)}[/dim]")
     _print_apart(console, document)
     console.print()
     if document.statistics.graded:
