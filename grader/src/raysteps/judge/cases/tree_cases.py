@@ -138,7 +138,7 @@ def in_a_large_world(draw: RandomSource) -> RaysInScene:
         if isinstance(surface, Sphere):
             return replace(surface, center=times(size, surface.center), radius=size * surface.radius)
         assert isinstance(surface, Triangle)
-        return Triangle(*(times(size, corner) for corner in (surface.a, surface.b, surface.c)))
+        return Triangle(times(size, surface.a), times(size, surface.b), times(size, surface.c))
 
     return tuple(map(enlarged, surfaces)), (Ray(times(size, ray.origin), ray.direction),)
 

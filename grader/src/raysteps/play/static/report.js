@@ -31,7 +31,9 @@ export function linkerWords(said, words) {
   }
   const missed = [...said.matchAll(/error: ([^\n]+): undefined symbol: ([^\n]+)/g)];
   const asked = missed.filter(([, object]) => !object.includes("/own-"));
-  const names = new Set((asked.length ? asked : missed).map(([, , name]) => asInAHeader(name).replaceAll("raysteps::", "")));
+  const names = new Set(
+    (asked.length ? asked : missed).map(([, , name]) => asInAHeader(name).replaceAll("raysteps::", "")),
+  );
   const shown = [...names].slice(0, asked.length ? names.size : 5).map((name) => shorten(name, 200));
   const [one, several] = asked.length ? words.missing : words.undefined;
   const last = shown.pop();
