@@ -21,7 +21,7 @@ import pytest
 
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
-from raysteps.submission import entries
+from raysteps.submission import archives, entries
 from raysteps.submission.load import load_submission
 
 GOOD = "steps/04-shadows/shadows.cpp"
@@ -194,13 +194,14 @@ def test_deep_folders_are_left_alone(tmp_path: Path, steps: list[Step]) -> None:
         subprocess.run(["rm", "-rf", str(tmp_path / ("d" * 200))], check=True)
 
 
-def test_an_encrypted_zip_is_refused(tmp_path: Path, steps: list[Step]) -> None:
+@pytest.mark.parametrize("how", [0x01, 0x41], ids=["weakly", "strongly"])
+def test_an_encrypted_zip_is_refused(tmp_path: Path, steps: list[Step], how: int) -> None:
     path = tmp_path / "a.zip"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("shadows.cpp", "int x;")
     data = bytearray(path.read_bytes())
-    data[6] |= 1  # the flag in the file's own header
-    data[data.index(b"PK\x01\x02") + 8] |= 1  # and in the directory
+    data[6] |= how  # the flags in the file's own header
+    data[data.index(b"PK\x01\x02") + 8] |= how  # and in the directory
     path.write_bytes(data)
     with pytest.raises(UsageError, match="encrypted"):
         load_submission(path, steps)
@@ -302,6 +303,68 @@ def test_headers_within_headers_without_end(tmp_path: Path, steps: list[Step]) -
     (tmp_path / "a.tar").write_bytes(one * 5000)
     with pytest.raises(UsageError):
         load_submission(tmp_path / "a.tar", steps)
+
+
+def _pax(kind: bytes, records: list[bytes]) -> bytes:
+    data = b"".join(b"%d %s\n" % (len(one) + (4 if len(one) < 96 else 5), one) for one in records)
+    return _header("pax", b"%011o\0" % len(data), kind) + data + bytes(-len(data) % 512)
+
+
+def _holes(count: int) -> bytes:
+    """A file of that many holes, in the form of PAX 1.0: where they are stands before its data."""
+    told = b"%d\n" % count + b"0\n0\n" * count
+    told += bytes(-len(told) % 512)
+    records = [b"GNU.sparse.major=1", b"GNU.sparse.minor=0", b"GNU.sparse.name=" + GOOD.encode()]
+    records.append(b"GNU.sparse.realsize=0")
+    return _pax(b"x", records) + _header("sparse", b"%011o\0" % len(told)) + told
+
+
+def _old_holes(blocks: int) -> bytes:
+    """The same as GNU's tar wrote it before: in blocks that each say whether another one follows."""
+    header = bytearray(_header(GOOD, b"00000000000\0", b"S"))
+    header[482:483], header[148:156] = b"\1", b" " * 8
+    header[148:156] = f"{sum(header):06o}\0 ".encode()
+    told = bytearray((b"00000000001\0" * 42).ljust(512, b"\1"))
+    return bytes(header) + bytes(told) * (blocks - 1) + bytes(told[:504]).ljust(512, b"\0")
+
+
+@pytest.mark.parametrize("make", [_holes, _old_holes])
+def test_a_file_with_a_million_holes_is_refused(
+    tmp_path: Path, steps: list[Step], make: Callable[[int], bytes]
+) -> None:
+    """Two megabytes of a compressed tar kept the library busy for minutes, and took a gigabyte."""
+    honest = _header("octree.cpp", b"00000000007\0") + b"int x;\n".ljust(512, b"\0")
+    (tmp_path / "a.tar").write_bytes(make(100) + honest + bytes(1024))
+    assert load_submission(tmp_path / "a.tar", steps).sources["06-octree"] == b"int x;\n"
+    (tmp_path / "a.tar").write_bytes(make(100_000) + honest + bytes(1024))
+    with pytest.raises(UsageError, match="impossible size"):
+        load_submission(tmp_path / "a.tar", steps)
+
+
+def test_headers_for_all_entries_are_few(tmp_path: Path, steps: list[Step]) -> None:
+    """The library copies them for each entry."""
+    honest = _header("octree.cpp", b"00000000007\0") + b"int x;\n".ljust(512, b"\0")
+    (tmp_path / "a.tar").write_bytes(_pax(b"g", [b"comment=0123456789abcdef"]) + honest + bytes(1024))
+    assert load_submission(tmp_path / "a.tar", steps).sources["06-octree"] == b"int x;\n"
+    many = [_pax(b"g", [b"keyword-%d=" % (1000 * part + at) for at in range(100, 1000)]) for part in range(2)]
+    files = _header("a", b"00000000000\0")
+    (tmp_path / "a.tar").write_bytes(many[0] + files + many[1] + files + honest + bytes(1024))
+    with pytest.raises(UsageError, match="too many headers"):
+        load_submission(tmp_path / "a.tar", steps)
+
+
+def test_an_archive_that_takes_long_is_given_up(
+    tmp_path: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever it is that keeps a library busy: here entries in a folder of tools, which do not count as files."""
+    monkeypatch.setattr(archives, "_MAX_SECONDS", 0.2)
+    files = _header("build/a", b"00000000000\0")
+    (tmp_path / "a.tar").write_bytes(files * 50_000 + bytes(1024))
+    with pytest.raises(UsageError, match="takes too long"):
+        load_submission(tmp_path / "a.tar", steps)
+    (tmp_path / "a.tar.gz").write_bytes(gzip.compress(b"") * 200_000)
+    with pytest.raises(UsageError, match="takes too long"):
+        load_submission(tmp_path / "a.tar.gz", steps)
 
 
 def test_archives_within_archives_are_not_opened(tmp_path: Path, steps: list[Step]) -> None:

@@ -7,37 +7,59 @@ import lzma
 import os
 import stat
 import tarfile
+import time
 import zipfile
 import zlib
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import IO, cast
+from typing import IO, Any, cast
 
 from raysteps.common.errors import UsageError
 from raysteps.submission import entries
 from raysteps.submission.entries import Entry, check_size, check_unpacked, is_out_of_sight, not_a_file, split
 
+_MAX_SECONDS = 30  # of computing, for an archive: the largest that is taken needs a few
+
+
+class _Archive(io.FileIO):
+    """The file of an archive, which is given up when the libraries compute for longer than an honest one takes."""
+
+    def __init__(self, root: Path, *, may_be_link: bool) -> None:
+        super().__init__(root, opener=None if may_be_link else _open_no_link)
+        self._root = root
+        self._ends = time.thread_time() + _MAX_SECONDS
+
+    def hurry(self) -> None:
+        if time.thread_time() > self._ends:
+            raise UsageError(f"{self._root}: takes too long to unpack; hand in the steps only")
+
+    def readinto(self, buffer: Any, /) -> int | None:
+        self.hurry()
+        return super().readinto(buffer)
+
+
+def _open_no_link(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0))
+
+
 # Reads a submission that is a tar, plain or compressed, as a stream: once, from front to end, up to a cap.
 
-_MAX_HEADER = 1 << 16  # a name or an extension that comes before an entry
-_HEADERS = (
-    tarfile.GNUTYPE_LONGNAME,
-    tarfile.GNUTYPE_LONGLINK,
-    tarfile.XHDTYPE,
-    tarfile.XGLTYPE,
-    tarfile.SOLARIS_XHDTYPE,
-)
+_MAX_HEADER = 1 << 16  # all that comes before the data of an entry: a long name, extensions, where its holes are
+_MAX_FOR_ALL = 1000  # extensions that hold for all entries which follow: the library copies them for each
+
+
+_GZIP, _BZIP2, _LZMA = b"\x1f\x8b", b"BZh", (b"\xfd7zXZ", b"\x5d\x00\x00")
 
 
 def _unpacked(raw: IO[bytes]) -> IO[bytes]:
     start = raw.read(6)
     raw.seek(0)
-    if start.startswith(b"\x1f\x8b"):
+    if start.startswith(_GZIP):
         return cast(IO[bytes], gzip.GzipFile(fileobj=raw))
-    if start.startswith(b"BZh"):
+    if start.startswith(_BZIP2):
         return bz2.BZ2File(raw)
-    if start.startswith((b"\xfd7zXZ", b"\x5d\x00\x00")):
+    if start.startswith(_LZMA):
         return lzma.LZMAFile(raw)
     return raw
 
@@ -45,14 +67,16 @@ def _unpacked(raw: IO[bytes]) -> IO[bytes]:
 class _Stream(io.RawIOBase):
     """An unpacked tar that is read once, from front to end, and not beyond a cap."""
 
-    def __init__(self, root: Path, raw: IO[bytes]) -> None:
+    def __init__(self, root: Path, file: _Archive) -> None:
         self._root = root
-        self._raw = raw
-        self._file = _unpacked(raw)
+        self._archive = file
+        self._raw = io.BufferedReader(file)
+        self._file = _unpacked(self._raw)
         self._count = 0
         self._reads_at_end = 0
 
     def read(self, size: int = -1, /) -> bytes:
+        self._archive.hurry()  # much may be unpacked from what is in memory
         data = self._file.read(size)
         self._count += len(data)
         self._reads_at_end += not data
@@ -62,8 +86,23 @@ class _Stream(io.RawIOBase):
         return data
 
 
+class _Head:
+    """The stream of an archive while the library reads what comes before the data of one entry."""
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        self._stream = stream
+        self._left = _MAX_HEADER
+        self.tell = stream.tell
+
+    def read(self, size: int) -> bytes:
+        self._left -= size
+        if self._left < 0:
+            raise tarfile.ReadError("a header with an impossible size")
+        return self._stream.read(size)
+
+
 class _Header(tarfile.TarInfo):
-    """A header that asks for no more memory than an honest one."""
+    """A header that asks for no more memory and time than an honest one."""
 
     @classmethod
     def frombuf(cls, buf: bytes | bytearray, encoding: str, errors: str) -> "_Header":
@@ -74,9 +113,21 @@ class _Header(tarfile.TarInfo):
                 raise  # the end of the archive
             # The library would take it for the end too, and what follows for never handed in.
             raise tarfile.ReadError(str(error)) from error
-        if header.size < 0 or (header.type in _HEADERS and header.size > _MAX_HEADER):
+        if header.size < 0:
             raise tarfile.ReadError("a header with an impossible size")
         return header
+
+    def _proc_member(self, archive: Any) -> tarfile.TarInfo:
+        """Where the library reads on after a header; the headers of one entry follow each other within it."""
+        if len(archive.pax_headers) > _MAX_FOR_ALL:
+            raise tarfile.ReadError("too many headers for all entries")
+        stream = archive.fileobj
+        if not isinstance(stream, _Head):
+            archive.fileobj = _Head(stream)
+        try:
+            return super()._proc_member(archive)  # type: ignore[misc, no-any-return]
+        finally:
+            archive.fileobj = stream
 
 
 def _kind_in_tar(info: tarfile.TarInfo) -> str:
@@ -95,7 +146,7 @@ def _read_tar(archive: tarfile.TarFile, info: tarfile.TarInfo) -> bytes:
         return file.read(entries.MAX_SOURCE + 1)
 
 
-def _tar_entries(root: Path, raw: IO[bytes]) -> Iterator[Entry]:
+def _tar_entries(root: Path, raw: _Archive) -> Iterator[Entry]:
     """The entries of a tar, plain or compressed, in their order."""
     stream = _Stream(root, raw)
     seen = 0
@@ -129,17 +180,20 @@ class _Directory(io.BufferedReader):
 
 def _kind_in_zip(info: zipfile.ZipInfo) -> str:
     """What an entry is when it is no file; archives made on Windows say nothing about it."""
-    if info.is_dir():
-        return "a folder"
     kind = stat.S_IFMT(info.external_attr >> 16)
+    if info.is_dir() or kind == stat.S_IFDIR:
+        return "a folder"
     if kind in (0, stat.S_IFREG):
         return ""
     return "a link" if kind == stat.S_IFLNK else "a device"
 
 
+_ENCRYPTED = 0x41  # in either of two ways
+
+
 def _read_zip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, root: Path) -> bytes:
     check_size(info.file_size)
-    if info.flag_bits & 1:
+    if info.flag_bits & _ENCRYPTED:
         raise UsageError(f"{root}: is encrypted; hand in an archive without a password")
     with archive.open(info) as file:
         data = file.read(entries.MAX_SOURCE + 1)
@@ -188,14 +242,10 @@ _FOREIGN = {
 FOREIGN_ENDINGS = (".rar", ".7z", ".zst")
 
 
-def _open_no_link(path: str, flags: int) -> int:
-    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0))
-
-
 def archive_entries(root: Path, *, may_be_link: bool) -> Iterator[Entry]:
     """The entries of an archive of a kind that can be read here."""
-    with io.FileIO(root, opener=None if may_be_link else _open_no_link) as file:
-        start = file.read(8)
+    with _Archive(root, may_be_link=may_be_link) as file:
+        start = file.read(tarfile.BLOCKSIZE)
         foreign = next((name for magic, name in _FOREIGN.items() if start.startswith(magic)), "")
         if foreign:
             raise UsageError(f"{root}: is {foreign}; hand in a folder, a zip or a tar")
@@ -203,4 +253,4 @@ def archive_entries(root: Path, *, may_be_link: bool) -> Iterator[Entry]:
             yield from _zip_entries(root, file)
         else:
             file.seek(0)
-            yield from _tar_entries(root, io.BufferedReader(file))
+            yield from _tar_entries(root, file)
