@@ -367,6 +367,19 @@ def test_an_archive_that_takes_long_is_given_up(
         load_submission(tmp_path / "a.tar.gz", steps)
 
 
+def test_a_tar_with_a_zip_at_its_end_is_a_tar(tmp_path: Path, steps: list[Step]) -> None:
+    """Which is what whoever looks into it sees; such as the zip of last week that lies beside the steps."""
+    inner = io.BytesIO()
+    with zipfile.ZipFile(inner, "w") as archive:
+        archive.writestr("shadows.cpp", "another;")
+    with tarfile.open(tmp_path / "a.tar", "w") as tar:
+        for name, data in (("shadows.cpp", b"int x;\n"), ("z.zip", inner.getvalue())):
+            info = tarfile.TarInfo(name)
+            info.size = len(data)
+            tar.addfile(info, io.BytesIO(data))
+    assert load_submission(tmp_path / "a.tar", steps).sources == {"04-shadows": b"int x;\n"}
+
+
 def test_archives_within_archives_are_not_opened(tmp_path: Path, steps: list[Step]) -> None:
     inner = io.BytesIO()
     with zipfile.ZipFile(inner, "w") as archive:

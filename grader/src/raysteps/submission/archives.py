@@ -64,6 +64,17 @@ def _unpacked(raw: IO[bytes]) -> IO[bytes]:
     return raw
 
 
+def _is_tar(start: bytes) -> bool:
+    """By what a file begins with. A tar may end as a zip does, with a zip or an office document as its last entry."""
+    if start.startswith((_GZIP, _BZIP2, *_LZMA)):
+        return True
+    try:
+        tarfile.TarInfo.frombuf(start, tarfile.ENCODING, "surrogateescape")
+    except tarfile.HeaderError:
+        return False
+    return True
+
+
 class _Stream(io.RawIOBase):
     """An unpacked tar that is read once, from front to end, and not beyond a cap."""
 
@@ -249,7 +260,7 @@ def archive_entries(root: Path, *, may_be_link: bool) -> Iterator[Entry]:
         foreign = next((name for magic, name in _FOREIGN.items() if start.startswith(magic)), "")
         if foreign:
             raise UsageError(f"{root}: is {foreign}; hand in a folder, a zip or a tar")
-        if zipfile.is_zipfile(file):
+        if not _is_tar(start) and zipfile.is_zipfile(file):
             yield from _zip_entries(root, file)
         else:
             file.seek(0)
