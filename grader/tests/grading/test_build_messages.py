@@ -138,6 +138,14 @@ def test_places_as_windows_writes_them(shadows: Step, output: str, place: str) -
     [
         (ran("/in/0/kit/core/ray.hpp:3:1: error: in a header"), "It does not build: ray.hpp:3:1: in a header"),
         (ran("c++: fatal error: Killed"), "It does not build: c++: fatal error: Killed"),
+        (
+            ran("ld: step.o: no such version\nld: bad value\ncollect2: error: ld returned 1 exit status"),
+            "It does not build: ld: step.o: no such version",
+        ),
+        (
+            ran("g++: internal compiler error: File size limit exceeded signal terminated program as\nSee <file:///x>"),
+            "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?",
+        ),
         (ran(""), "It does not build: the compiler gave up and said nothing."),
         (ran("", stopped="memory"), "It does not build: the compiler needed more memory than it may have."),
     ],

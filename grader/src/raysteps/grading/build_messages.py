@@ -27,6 +27,8 @@ _TWICE = re.compile(
     r"|LNK2005: \"?(?P<theirs>[^\s\"][^\"\n]*)"
 )
 
+_END_OF_LINKER = re.compile(r"ld returned \d+ exit status|linker command failed")  # its reason stands above
+
 
 @dataclass(frozen=True)
 class _Error:
@@ -163,8 +165,11 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         if own:
             text += f"\n{_context(source, error.line, error.column)}{_other_words(shorten(error.text))}{_more(own)}"
         return text
-    telling = [line for line in output.splitlines() if re.search("error:|terminated|Error", line)]
-    said = shorten(telling[-1] if telling else output.strip().rpartition("\n")[2], 300)
+    if "File size limit exceeded" in output:
+        return "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?"
+    lines = [line for line in output.splitlines() if line.strip() and not _END_OF_LINKER.search(line)]
+    telling = [line for line in lines if re.search("error:|terminated|Error", line)]
+    said = shorten("".join(telling[-1:] or lines[:1]), 300)
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
 
 
