@@ -220,3 +220,16 @@ def test_a_whole_kit_may_be_graded_into_its_build_folder(tmp_path: Path) -> None
     refuse_results_in(tmp_path / "ann.zip", tmp_path, ("pictures",))
     with pytest.raises(UsageError, match="among what was handed in"):
         refuse_results_in(tmp_path / "pictures" / "ann", tmp_path, ("pictures",))
+
+
+@pytest.mark.parametrize("link", ["build", "build/grades", "build/grades/pictures", "build/grades/pictures/07"])
+def test_results_do_not_follow_links_that_were_handed_in(tmp_path: Path, link: str) -> None:
+    (tmp_path / "somebody").mkdir()
+    ann = tmp_path / "ann"
+    (ann / link).parent.mkdir(parents=True)
+    (ann / link).symlink_to(tmp_path / "somebody")
+    with pytest.raises(UsageError, match=f"{link} is a link that was handed in"):
+        refuse_results_in(ann, ann / "build" / "grades", ("pictures",))
+    (tmp_path / "alias").symlink_to(ann)
+    (ann / link).unlink()
+    refuse_results_in(tmp_path / "alias", tmp_path / "alias" / "build" / "grades", ("pictures",))

@@ -290,6 +290,20 @@ def refuse_results_in(handed_in: Path, out: Path, rooms: Sequence[str]) -> None:
             f"--out {out}: the results would lie among what was handed in, {handed_in}; name a folder outside of it, "
             "or one in its build folder, such as build/grades"
         )
+    link = _link_on_the_way(handed_in, out, rooms)
+    if link is not None:
+        raise UsageError(f"--out {out}: {link} is a link that was handed in, and results would go where it leads")
+
+
+def _link_on_the_way(handed_in: Path, out: Path, rooms: Sequence[str]) -> Path | None:
+    """One of the submission's that results would be written through."""
+    place = Path(os.path.abspath(out))  # noqa: PTH100  # Path.absolute leaves `..` in it
+    for home in (Path(os.path.abspath(handed_in)), handed_in.resolve()):  # noqa: PTH100
+        if place.is_relative_to(home):
+            inner = [place / room for room in rooms]
+            ways = [place, *place.parents, *inner, *(child for room in inner for child in room.glob("*"))]
+            return next((way for way in ways if way != home and way.is_relative_to(home) and way.is_symlink()), None)
+    return None
 
 
 def _highest(homes: set[tuple[str, ...]]) -> list[tuple[str, ...]]:
