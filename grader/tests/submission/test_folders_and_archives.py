@@ -73,6 +73,15 @@ def test_what_is_no_file_is_named(tmp_path: Path, steps: list[Step], monkeypatch
     assert all(f"is a {kind}, not a file" in notes[step] for step, kind in kinds.items())
 
 
+def test_a_submission_that_is_neither_file_nor_folder_is_named(tmp_path: Path, steps: list[Step]) -> None:
+    os.mkfifo(tmp_path / "ann")
+    for place, kind in ((tmp_path / "ann", "pipe"), (Path("/dev/zero"), "device")):
+        with pytest.raises(UsageError, match=f"is a {kind}; expected a submission: a folder, zip or tar$"):
+            load_submission(place, steps)
+    with pytest.raises(UsageError, match=r"is not there; .* did you mean ann\?"):
+        load_submission(tmp_path / "anm", steps)
+
+
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root makes devices")
 def test_devices_are_not_opened(tmp_path: Path, steps: list[Step]) -> None:
     try:

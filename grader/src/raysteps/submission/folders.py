@@ -15,7 +15,8 @@ _FILE = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBL
 _FOLDER = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_DIRECTORY", "O_CLOEXEC"))
 
 
-def _what(mode: int) -> str:
+def what_is(mode: int) -> str:
+    """What somebody gave in place of a file."""
     names: dict[Callable[[int], bool], str] = {
         stat.S_ISLNK: "a link",
         stat.S_ISDIR: "a folder",
@@ -33,7 +34,7 @@ def _read(folder: int, name: str) -> bytes:
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode):
-            raise RejectedFile(f"is {_what(status.st_mode)}, not a file, and was not taken.")
+            raise RejectedFile(f"is {what_is(status.st_mode)}, not a file, and was not taken.")
         check_size(status.st_size)
         try:
             data = file.read(entries.MAX_SOURCE + 1)
@@ -82,7 +83,7 @@ class FolderReader:
             if stat.S_ISREG(mode):
                 yield Entry(path, partial(_read, folder, name))
             else:
-                yield Entry(path, not_a_file(_what(mode)))
+                yield Entry(path, not_a_file(what_is(mode)))
             if stat.S_ISDIR(mode) and not is_out_of_sight(path):
                 yield from self._into(folder, name, path)
 

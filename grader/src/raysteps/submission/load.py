@@ -13,7 +13,7 @@ from raysteps.course.manifest import Step
 from raysteps.submission.archives import DAMAGED, FOREIGN_ENDINGS, archive_entries
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import MAX_ABOVE, Entry, RejectedFile, is_out_of_sight, shown
-from raysteps.submission.folders import FolderReader, PlainFolderReader
+from raysteps.submission.folders import FolderReader, PlainFolderReader, what_is
 
 # Where the files of a submission are expected, and which names are close to an expected one.
 
@@ -234,8 +234,10 @@ def _collect(path: Path, collector: _Collector, *, may_be_link: bool) -> None:
         reader = _reader(path)
         collector.take(reader.entries())
         collector.cannot_look_into(reader.closed)
-    elif not path.is_file():
+    elif not path.exists():
         raise UsageError(f"{path}: is not there; expected a submission: a folder, zip or tar{like(path)}")
+    elif not path.is_file():
+        raise UsageError(f"{path}: is {what_is(path.stat().st_mode)}; expected a submission: a folder, zip or tar")
     else:
         collector.take(archive_entries(path, may_be_link=may_be_link))
 
