@@ -143,6 +143,10 @@ def test_places_as_windows_writes_them(shadows: Step, output: str, place: str) -
             "It does not build: ld: step.o: no such version",
         ),
         (
+            ran("cc1plus: fatal error: a: No such file or directory\ncompilation terminated."),
+            "It does not build: cc1plus: fatal error: a: No such file or directory",
+        ),
+        (
             ran("g++: internal compiler error: File size limit exceeded signal terminated program as\nSee <file:///x>"),
             "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?",
         ),

@@ -27,7 +27,7 @@ _TWICE = re.compile(
     r"|LNK2005: \"?(?P<theirs>[^\s\"][^\"\n]*)"
 )
 
-_END_OF_LINKER = re.compile(r"ld returned \d+ exit status|linker command failed")  # its reason stands above
+_LAST_WORDS = re.compile(r"ld returned \d+ exit status|linker command failed|^compilation terminated")  # why is above
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         return text
     if "File size limit exceeded" in output:
         return "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?"
-    lines = [line for line in output.splitlines() if line.strip() and not _END_OF_LINKER.search(line)]
+    lines = [line for line in output.splitlines() if line.strip() and not _LAST_WORDS.search(line)]
     telling = [line for line in lines if re.search("error:|terminated|Error", line)]
     said = shorten("".join(telling[-1:] or lines[:1]), 300)
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
