@@ -2,6 +2,7 @@
 
 import io
 import tarfile
+import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -63,6 +64,34 @@ def tar_without_end(folder: Path, facts: Mapping[str, str]) -> Path:
     return path
 
 
+def tar_of_holes(folder: Path, facts: Mapping[str, str]) -> Path:
+    """As PAX 1.0 tells where they are: before the data, a number in a line."""
+    entry = _entry("picture.raw")
+    entry.pax_headers = {"GNU.sparse.major": "1", "GNU.sparse.minor": "0", "GNU.sparse.name": "picture.raw"}
+    entry.pax_headers["GNU.sparse.realsize"] = "0"
+    told = b"4000000\n" + b"0\n" * 8_000_000
+    return _tar(folder, [(entry, told + bytes(-len(told) % 512))], ".tar.gz")
+
+
+def tar_with_a_zip_at_its_end(folder: Path, facts: Mapping[str, str]) -> Path:
+    """The zip holds what would count, were the tar taken for it."""
+    inner = io.BytesIO()
+    with zipfile.ZipFile(inner, "w") as archive:
+        for name, data in honest_sources(folder).items():
+            archive.writestr(name, data)
+    path = folder.with_suffix(".tar")
+    with tarfile.open(path, "w") as outer:
+        for name, data in {**honest_sources(folder), _PLACE: _SOURCE, "old.zip": inner.getvalue()}.items():
+            info = _entry(name)
+            info.size = len(data)
+            outer.addfile(info, io.BytesIO(data))
+    return path
+
+
 TARS: dict[str, Maker] = {
-    make.__name__: make for make in (tar_that_leads_out, tar_with_devices, tar_bomb, tar_without_end)
+    make.__name__: make
+    for make in (
+        *(tar_that_leads_out, tar_with_devices, tar_bomb, tar_without_end),
+        *(tar_of_holes, tar_with_a_zip_at_its_end),
+    )
 }
