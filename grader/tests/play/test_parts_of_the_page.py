@@ -22,7 +22,7 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
-from raysteps.grading.build_messages import twice_message, undefined_message
+from raysteps.grading.build_messages import AS_IN_A_HEADER, twice_message, undefined_message
 from raysteps.images.compare import compare, parse_ppm
 from raysteps.images.noise import Estimates, compare_estimates
 from raysteps.play.play_page import PlayServer, first_includes, handout, publish, refuse_to_publish, with_places
@@ -297,7 +297,11 @@ def test_the_page_says_of_a_report_what_the_grader_says(watched: Watched, server
 def test_what_the_linker_says_in_the_words_of_the_grader(watched: Watched, server: PlayServer) -> None:
     """Functions that a contract asks for: test_play_page.py."""
     page = _open(watched, server)
-    words = {"twice": twice_message("{}"), "undefined": [undefined_message((one,)) for one in ("{}", "{} and {}")]}
+    words = {
+        "twice": twice_message("{}"),
+        "undefined": [undefined_message((one,)) for one in ("{}", "{} and {}")],
+        "asInAHeader": AS_IN_A_HEADER,
+    }
     said = "wasm-ld: error: duplicate symbol: raysteps::far(float)\n>>> defined in /work/own-01.o\n"
     helpers = "".join(f"wasm-ld: error: /work/own-02.o: undefined symbol: raysteps::f{one}()\n" for one in "12345612")
     vector = "far(glm::vec<3, float, (glm::qualifier)0> const&, std::span<Ray const, 4294967295ul>)"

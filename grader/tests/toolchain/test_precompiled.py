@@ -90,7 +90,7 @@ def test_a_file_that_holds_all_of_it_twice_is_told_so(kit: BuiltKit, solved: dic
     source = 2 * f"{solved[step.id]}\n"
     message = why_not_built(kit, step, _compiled(kit, step, source, tmp_path, LimitsOnly()), source)
     assert "redefinition of" in message
-    assert "It stands in this file twice" in message
+    assert "It is defined twice, in this file" in message
 
 
 def test_messages_name_the_students_file(kit: BuiltKit, solved: dict[str, str], tmp_path: Path) -> None:

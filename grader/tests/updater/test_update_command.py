@@ -63,6 +63,8 @@ def test_files_of_the_kit_that_a_check_goes_by_are_named_when_they_changed(mine:
     assert changed_files(mine) == ["framework/core/ray.hpp", "framework/core/gone.hpp"]
     assert "not handed in: framework/core/ray.hpp, framework/core/gone.hpp. Your course" in about_changed(mine)
     assert about_changed(tmp_path) == ""
+    (mine / PLACE).write_bytes(b"<<<<<<< HEAD\n" + (mine / PLACE).read_bytes())
+    assert about_changed(mine) == "", "a check goes on without its list"
 
 
 def test_a_fault_names_files_of_the_kit_that_changed(

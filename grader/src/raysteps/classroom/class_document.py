@@ -47,7 +47,8 @@ def _mistakes(step: StepResult) -> list[str]:
 def _not_taken(status: str, steps: Sequence[StepResult]) -> list[str]:
     """A kit that did not keep the reasons by themselves has them among the messages, where nothing could be read."""
     if status == "unreadable":
-        return [f"It {words.removeprefix(NOTHING_TAKEN)}" for step in steps[:1] for words in step.messages[:1]]
+        said = (words for step in steps[:1] for words in step.messages[:1])
+        return [f"It {words.removeprefix(NOTHING_TAKEN.removesuffix('it ')).removeprefix('it ')}" for words in said]
     return [f"{step.id}: {step.not_taken}" for step in steps if step.not_taken]
 
 

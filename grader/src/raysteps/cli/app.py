@@ -285,10 +285,9 @@ def _tell_changed(project: Project) -> None:
     """A fault may come of files of the kit that a student has changed."""
     from raysteps.updater.release_list import about_changed
 
-    with suppress(RaystepsError):
-        changed = about_changed(project.root)
-        if changed:
-            _tell(changed)
+    changed = about_changed(project.root)
+    if changed:
+        _tell(changed)
 
 
 _RARELY = 50_000  # new objects, until Python looks for circles that nobody needs: most live as long as the command

@@ -77,7 +77,7 @@ def grade_here(project: Project, submission: Path, steps: list[Step], options: O
         load_submission(submission, steps)
     except UsageError as error:
         why = clean(without_place(error, submission))
-        return nothing_handed_in(chosen, f"Nothing to grade was found in what was handed in: {why}")
+        return nothing_handed_in(chosen, f"Nothing to grade was found in what was handed in: it {why}.")
     words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade", submission.resolve(), "--out", work]
     # One step at a time: a container has less than one processor, and says it has all of its machine's.
     words += ["--jobs", "1", *options.words]

@@ -124,15 +124,17 @@ IN_OTHER_WORDS = (
         r"binary 'operator[%^]'|C229[67]: '[%^]'"
         r"|invalid operands to binary expression \('(?:const )?(?:float|double|int)' "
         r".*and '(?:const )?(?:float|double|int)'",
-        "Neither ^ nor % takes floats: a power is std::pow(a, b) or a * a, a remainder std::fmod(a, b).",
+        "Operators of whole numbers, such as ^ and %, take no floats: a power is std::pow(a, b) or a * a, a remainder "
+        "std::fmod(a, b).",
     ),
     (
-        r"extended character|stray '\\|unexpected character <U\+|non-ASCII|C3872:|C2018:",
+        r"extended character|stray '\\\d|unexpected character <U\+|non-ASCII|C3872:|C2018:",
         'This sign looks like one of C++, but is another: type it anew, such as " for a curved quote, - for a dash.',
     ),
     (
-        r"redefinition of|C2084:",
-        "It stands in this file twice: keep one of them.",
+        r"redefinition of (?!default)|C2084:",
+        "It is defined twice, in this file or in a header that it includes: keep one of them, or give yours another "
+        "name.",
     ),
     (
         r"discards qualifiers|read-only|cannot assign to .* const|C2166:|C3490:",
@@ -173,19 +175,19 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
 
 
-# Names as a linker writes them, and as a header does.
-_AS_IN_A_HEADER = (
-    (re.compile(r"\bglm::vec<([234]), float, \(glm::qualifier\)0>"), r"glm::vec\1"),
-    (re.compile(r"\bstd::span<([\w:]{1,60}) const, 18446744073709551615ul>"), r"std::span<const \1>"),
-    (re.compile(r"\b([\w:]{1,60}(?:<[^<>]{1,60}>)?) const([&*])"), r"const \1\2"),
+# Names as a linker writes them, and as a header does. JavaScript reads these patterns, too.
+AS_IN_A_HEADER = (
+    (r"\bglm::vec<([234]), float, \(glm::qualifier\)0>", r"glm::vec\1"),
+    (r"\bstd::span<([\w:]{1,60}) const, \d{1,20}ul>", r"std::span<const \1>"),
+    (r"\b([\w:]{1,60}(?:<[^<>]{1,60}>)?) const([&*])", r"const \1\2"),
 )
 _MAX_DEFINED = 200  # functions that are compared
 _DEFINED = re.compile(r"\b(\w{1,60})\s?\([^;{}()]{0,500}\)\s{0,3}(?:const\s{0,3})?\{")
 
 
 def _as_in_a_header(name: str) -> str:
-    for pattern, plain in _AS_IN_A_HEADER:
-        name = pattern.sub(plain, name)
+    for pattern, plain in AS_IN_A_HEADER:
+        name = re.sub(pattern, plain, name)
     return name
 
 

@@ -311,9 +311,7 @@ def tell_crash_line(
     else:
         found = crash_line(ran.outcome.stderr, files, threw=test.outcome != "crashed")
     if found:
-        known = test.message.removesuffix(FIND_THE_LINE).strip()
-        if ": " in found:  # what happened there: no guess by the signal is wanted any more
-            known = _GUESS.sub(r"(\1)", known, count=1)
+        known = _GUESS.sub(r"(\1)", test.message.removesuffix(FIND_THE_LINE).strip(), count=1)
         test.message = f"{known}\n{found}".strip()
     return bool(found)
 

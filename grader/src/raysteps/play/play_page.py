@@ -24,7 +24,13 @@ from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targe
 from raysteps.course.manifest import ImageCase, Step, course_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
-from raysteps.grading.build_messages import IN_OTHER_WORDS, missing_message, twice_message, undefined_message
+from raysteps.grading.build_messages import (
+    AS_IN_A_HEADER,
+    IN_OTHER_WORDS,
+    missing_message,
+    twice_message,
+    undefined_message,
+)
 from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.noise import read_estimates, with_samples
@@ -242,6 +248,7 @@ class PlayPage:
             "undefined": [undefined_message(names) for names in _NAMES],
             "twice": twice_message("{}"),
             "inOtherWords": IN_OTHER_WORDS,
+            "asInAHeader": AS_IN_A_HEADER,
         }
         content = {
             "model": self._kit.model,

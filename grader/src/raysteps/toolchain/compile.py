@@ -251,7 +251,7 @@ class StudentBuild:
             included(text) for text in (pristine_stub(self._kit.project, step), source.decode("utf-8", "replace"))
         )
         # Names that the file does not include stay out; and GCC takes a precompiled header once only.
-        if set(needed) <= set(there) and len(there) == len(set(there)):
+        if set(needed) <= set(there) and len(there) == len({name.strip('<>"') for name in there}):
             words += ["-I", Input(self._kit.folder / "precompiled")]
         words += include_words(description, Input(self._kit.include), [Input(it) for it in description.more_includes])
         words += compile_words(description, Input(path, step.file), Output("object"))

@@ -5,6 +5,7 @@ import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Literal
@@ -191,8 +192,11 @@ _BUILT = ("CMakeLists.txt", "cmake/", "framework/", "scenes/", "steps/")  # or d
 
 
 def changed_files(root: Path) -> list[str]:
-    """Files of the kit that a check goes by, and that are not as they were given out; none where nothing was."""
-    release = read_release(root)
+    """Files of the kit that a check goes by, and that are not as they were given out; none where nothing was, or where
+    its list cannot be read."""
+    release = None
+    with suppress(UsageError):
+        release = read_release(root)
     files = [] if release is None else [file for file in release.files if file.owner == "kit"]
     named = [file for file in files if file.path.startswith(_BUILT) and not file.path.endswith(".md")]
     return [file.path for file in named if not _is_as_released(root / file.path, file)]
@@ -207,7 +211,7 @@ def about_changed(root: Path) -> str:
     more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
     return (
         f"Not as the kit was given out, and not handed in: {', '.join(names[:_MOST_NAMED])}{more}. Your course grades "
-        "with the kit's own: put back what it had, with `git restore` or from a fresh copy."
+        "with the kit's own: put back what it had, from a fresh copy, or with `git restore` if nothing was committed."
     )
 
 

@@ -3,7 +3,7 @@
 import { data, element } from "./page-data.js";
 import { linkerWords } from "./report.js";
 
-const MOST_LETTERS = 300; // that are looked through
+const MOST_LETTERS = 2000; // that are looked through
 
 /** What the compiler says: `{file, line, column, severity, message}`, notes behind what they belong to. */
 function problemsIn(text) {

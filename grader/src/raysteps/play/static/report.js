@@ -11,12 +11,6 @@ const MATCHED = " is expected to ";
 const VERBS = { "be ": "= ", "have ": "has ", "point ": "points " };
 const TROUBLE = { Exception: "threw: ", FatalErrorCondition: "crashed: " };
 const MOST_LETTERS = 2000;
-// Names as a linker writes them, and as a header does.
-const AS_IN_A_HEADER = [
-  [/\bglm::vec<([234]), float, \(glm::qualifier\)0>/g, "glm::vec$1"],
-  [/\bstd::span<([\w:]{1,60}) const, \d{1,20}ul>/g, "std::span<const $1>"],
-  [/\b([\w:]{1,60}(?:<[^<>]{1,60}>)?) const([&*])/g, "const $1$2"],
-];
 
 function shorten(text, limit = MOST_LETTERS) {
   return text.length <= limit ? text : `${text.slice(0, limit)} ...`;
@@ -32,7 +26,7 @@ export function linkerWords(said, words) {
   const missed = [...said.matchAll(/error: ([^\n]+): undefined symbol: ([^\n]+)/g)];
   const asked = missed.filter(([, object]) => !object.includes("/own-"));
   const names = new Set(
-    (asked.length ? asked : missed).map(([, , name]) => asInAHeader(name).replaceAll("raysteps::", "")),
+    (asked.length ? asked : missed).map(([, , name]) => asInAHeader(name, words).replaceAll("raysteps::", "")),
   );
   const shown = [...names].slice(0, asked.length ? names.size : 5).map((name) => shorten(name, 200));
   const [one, several] = asked.length ? words.missing : words.undefined;
@@ -42,8 +36,10 @@ export function linkerWords(said, words) {
     : last && one.replace("{}", () => last);
 }
 
-function asInAHeader(name) {
-  return AS_IN_A_HEADER.reduce((text, [pattern, plain]) => text.replace(pattern, plain), name);
+/** A name as a header writes it. The patterns are Python's, where \1 is what $1 is here. */
+function asInAHeader(name, words) {
+  const written = (text, [pattern, plain]) => text.replace(new RegExp(pattern, "g"), plain.replaceAll("\\", "$"));
+  return words.asInAHeader.reduce(written, name);
 }
 
 function textOf(element) {
