@@ -1,5 +1,6 @@
 """What the command `update` says, and which repository it changes."""
 
+import errno
 import os
 import re
 from pathlib import Path
@@ -70,8 +71,11 @@ def test_files_of_the_kit_that_a_check_goes_by_are_named_when_they_changed(mine:
 def test_a_fault_names_files_of_the_kit_that_changed(
     mine: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    faults: list[Exception] = [OSError(errno.ENOSPC, "no room")]
+    faults += 2 * [GraderFault("a part of the kit cannot be linked: primary_ray")]
+
     def fail(*_: object) -> int:
-        raise GraderFault("a part of the kit cannot be linked: primary_ray")
+        raise faults.pop()
 
     monkeypatch.setattr("raysteps.cli.app.here", lambda: Project(mine))
     monkeypatch.setattr("raysteps.cli.app._module", lambda *_: SimpleNamespace(run_words=fail))
@@ -80,6 +84,8 @@ def test_a_fault_names_files_of_the_kit_that_changed(
     (mine / "framework/core/ray.hpp").write_bytes(b"my ray\n")
     assert main(["list"]) == 4
     assert "not handed in: framework/core/ray.hpp. " in capsys.readouterr().err
+    assert main(["list"]) == 4
+    assert "not handed in" not in capsys.readouterr().err, "there was no room"
 
 
 def test_what_setting_up_made_is_not_the_students_own(

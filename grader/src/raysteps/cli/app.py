@@ -276,7 +276,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return code
     except BaseException as error:
         code = exit_code_of(error)
-        if code == GraderFault.exit_code:
+        if code == GraderFault.exit_code and not isinstance(error, OSError):  # which is want of room
             _tell_changed(project)
         return code
 
