@@ -156,9 +156,9 @@ def _right(items: Sequence[TestResult | ImageResult], noun: str, share: float) -
     return (f"{percent(share)}: {right} of {count(len(items), noun)} right" if items else "not run", share)
 
 
-def _one(passed: bool, result: StepResult) -> str:
+def _together(result: StepResult) -> str:
     """Of the picture of all steps together, which is drawn where those of the step are."""
-    return "right" if passed else "wrong" if result.images else "not run"
+    return "right" if result.cumulative.passed else "wrong" if result.images else "not run"
 
 
 def parts_of(result: StepResult, step: Step | None) -> list[Part]:
@@ -166,12 +166,12 @@ def parts_of(result: StepResult, step: Step | None) -> list[Part]:
     step's weights are not known."""
     if step is None:
         return []
-    together, share = result.cumulative.passed, result.share_of_hidden
+    share = result.share_of_hidden
     found = [
         ("tests", _right(result.tests, "test", result.share_of_tests), step.weight_tests),
         ("pictures", _right(result.images, "picture", result.share_of_images), step.weight_images),
         ("hidden", (percent(share) if result.hidden else "not run", share), step.weight_hidden),
-        ("together", (_one(together, result), float(together)), step.weight_together),
+        ("together", (_together(result), float(result.cumulative.passed)), step.weight_together),
     ]
     if result.max < step.points - _NEAR:
         found = [part for part in found if part[0] != "hidden"]
