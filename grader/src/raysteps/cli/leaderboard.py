@@ -46,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def _steps(project: Project, names: list[str]) -> list[Step]:
     counted = [step.id for step in read_steps(project) if step.limited_pictures]
     ours = [step.id for step in course_steps(project) if step.id in counted]
-    if not (names and counted) and not ours:
+    if not (counted if names else ours):
         raise UsageError("no step of this course has a tree whose work is counted, so there is nothing to rank")
     chosen = chosen_steps(project, names or ours)
     for step in chosen:

@@ -1,9 +1,7 @@
 // What the compiler and the linker say, below the editor and at its lines.
 
 import { data, element } from "./page-data.js";
-import { linkerWords } from "./report.js";
-
-const MOST_LETTERS = 2000; // that are looked through
+import { linkerWords, shorten } from "./report.js";
 
 /** What the compiler says: `{file, line, column, severity, message}`, notes behind what they belong to. */
 function problemsIn(text) {
@@ -19,7 +17,7 @@ function problemsIn(text) {
 
 /** What an error means that many meet first. */
 function otherWords({ severity, message }) {
-  const start = message.slice(0, MOST_LETTERS);
+  const start = shorten(message);
   const known = data.words.inOtherWords.find(([pattern]) => severity === "error" && new RegExp(pattern).test(start));
   return known ? [make("strong", {}, ...coded(` ${known[1]}`))] : [];
 }

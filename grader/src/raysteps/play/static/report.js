@@ -12,7 +12,7 @@ const VERBS = { "be ": "= ", "have ": "has ", "point ": "points " };
 const TROUBLE = { Exception: "threw: ", FatalErrorCondition: "crashed: " };
 const MOST_LETTERS = 2000;
 
-function shorten(text, limit = MOST_LETTERS) {
+export function shorten(text, limit = MOST_LETTERS) {
   return text.length <= limit ? text : `${text.slice(0, limit)} ...`;
 }
 
