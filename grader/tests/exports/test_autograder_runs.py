@@ -61,6 +61,7 @@ def autograder(project: Project, tmp_path_factory: pytest.TempPathFactory) -> It
 def _run_autograder(root: Path) -> tuple[int, Any]:
     environment = _environment(RAYSTEPS_AUTOGRADER=str(root))
     done = subprocess.run([root / "run_autograder"], cwd=root, env=environment, capture_output=True, check=False)
+    print(done.stderr.decode("utf-8", "replace")[-4000:])  # which is why, where a test fails
     return done.returncode, json.loads((root / "results" / "results.json").read_text())
 
 

@@ -26,7 +26,7 @@ from raysteps.sandbox.users import can_lend_users, lent_user
 # The two pipes between the grader and a bubblewrap: it says who its first process is and how the command ended, and
 # it waits for a sign before it starts the command.
 
-_START_SECONDS = 30.0
+_START_SECONDS = 60.0  # on a machine that stands still for a while
 
 
 class StartupPipes:
@@ -78,7 +78,7 @@ class StartupPipes:
 
 # A bubblewrap that runs: what its processes use, how they end, and what that means for the task.
 
-_DYING_SECONDS = 5.0
+_DYING_SECONDS = 60.0  # of processes that the kernel has killed already, however busy it is
 
 
 class Running:
@@ -315,7 +315,7 @@ class Bubblewrap:
 
 def _options_of(program: str) -> frozenset[str]:
     """What this version can do."""
-    said = subprocess.run([program, "--help"], capture_output=True, check=False, timeout=10, text=True)
+    said = subprocess.run([program, "--help"], capture_output=True, check=False, timeout=_START_SECONDS, text=True)
     return frozenset(word for word in (said.stdout + said.stderr).split() if word.startswith("--"))
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.project import here
 from raysteps.sandbox.limits_only import LimitsOnly
-from raysteps.sandbox.task import Input, Sandbox, Task
+from raysteps.sandbox.task import Input, Limits, Sandbox, Task
 
 if sys.platform != "win32":
     from raysteps.sandbox.bubblewrap import Bubblewrap
@@ -21,6 +21,7 @@ if sys.platform != "win32":
     from raysteps.sandbox.users import can_lend_users
 
 VARIABLE = "RAYSTEPS_SANDBOX"
+_TRIED_SECONDS = 120.0  # a machine that stands still for a while has no weaker sandbox for it
 _CHOICES = ("bubblewrap", "fallback", "none")
 _ON_WINDOWS = "\nOn Windows, use WSL: docs/where-students-work.md." if sys.platform == "win32" else ""
 
@@ -31,7 +32,7 @@ def _works(sandbox: Sandbox) -> str:
     if program is None:
         return "the program true, to try it with, was not found"
     try:
-        ran = sandbox.run(Task((Input(Path(program), "true"),)))
+        ran = sandbox.run(Task((Input(Path(program), "true"),), Limits(wall_seconds=_TRIED_SECONDS)))
     except (GraderFault, OSError, ValueError) as error:
         return str(error)
     return "" if ran.outcome.code == 0 else f"the program true ended with {ran.outcome.code}: {ran.outcome.stderr}"
