@@ -52,3 +52,14 @@ else()
         target_link_options(raysteps-flags INTERFACE "-fsanitize=${RAYSTEPS_SANITIZE}")
     endif()
 endif()
+
+# For students' files. A variable that was given no value holds the same wrong one wherever and whenever its function
+# runs: the mistake shows at once, and not first on another machine.
+include(CheckCXXCompilerFlag)
+set(RAYSTEPS_STUDENTS_OPTIONS "")
+if(NOT MSVC)
+    check_cxx_compiler_flag(-ftrivial-auto-var-init=pattern RAYSTEPS_CAN_FILL_VARIABLES)
+    if(RAYSTEPS_CAN_FILL_VARIABLES)
+        set(RAYSTEPS_STUDENTS_OPTIONS -ftrivial-auto-var-init=pattern)
+    endif()
+endif()

@@ -1,7 +1,8 @@
 # Writes kit.json into the build folder: how a step is compiled, and what each program is linked from. The grader builds
 # a submission from it without asking CMake again.
 get_target_property(options raysteps-flags INTERFACE_COMPILE_OPTIONS)
-set(compile_flags ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX20_STANDARD_COMPILE_OPTION} ${options})
+set(compile_flags ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX20_STANDARD_COMPILE_OPTION} ${options}
+    ${RAYSTEPS_STUDENTS_OPTIONS})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND compile_flags -fno-gnu-unique -fmax-errors=20 -fno-diagnostics-show-caret)
 elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")

@@ -50,7 +50,8 @@ function(raysteps_add_step step variant source)
         set_target_properties(${raw} PROPERTIES POSITION_INDEPENDENT_CODE ON)  # becomes a library, as a student's does
     endif()
     if(NOT variant STREQUAL "reference")
-        target_compile_options(${raw} PRIVATE $<IF:$<BOOL:${MSVC}>,/wd4100,-Wno-unused-parameter>)
+        target_compile_options(${raw} PRIVATE $<IF:$<BOOL:${MSVC}>,/wd4100,-Wno-unused-parameter>
+                                              ${RAYSTEPS_STUDENTS_OPTIONS})
     else()
         target_link_libraries(${raw} PRIVATE raysteps-strict)
     endif()

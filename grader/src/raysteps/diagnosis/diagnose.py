@@ -1,11 +1,14 @@
 """What explains a step that is not right, in words."""
 
+import re
+import struct
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from raysteps.common.documents import read_text
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants
 from raysteps.diagnosis.evidence import Evidence, Mask, Picture, Questions, differing, listen, questions_of
@@ -161,6 +164,60 @@ def findings(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iter
         yield Diagnosis("finding", "where-it-is-wrong", sentence, hint=hint, seen_in=[name])
 
 
+# A variable that was given no value. GCC fills it with bytes that show (RAYSTEPS_STUDENTS_OPTIONS in
+# cmake/compiler.cmake): as a float that is a number which nobody means, and what is added to it does not change it.
+
+_FILL = b"\xfe"
+_NO_FLOAT = abs(float(struct.unpack("<f", 4 * _FILL)[0]))
+_SCALED = 1e-5  # by a factor such as a colour
+_NO_WHOLE_NUMBERS = {str(struct.unpack(f"<{kind}", struct.calcsize(f"<{kind}") * _FILL)[0]) for kind in "iIqQ"}
+_NUMBER = re.compile(r"(?<![\w.])-?\d{1,40}(?:\.\d{1,40})?(?:e[+-]?\d{1,3})?(?![\w.])")
+_MAX_READ = 10_000  # characters of one answer
+
+
+def _is_no_value(number: str) -> bool:
+    """A power of ten is somebody's infinity."""
+    size = abs(float(number))
+    scaled = _SCALED * _NO_FLOAT <= size <= 1.001 * _NO_FLOAT and not f"{size:.5e}".startswith("1.00000e")
+    return scaled or number in _NO_WHOLE_NUMBERS
+
+
+def _has_no_value(text: str) -> bool:
+    return any(_is_no_value(number) for number in _NUMBER.findall(text[:_MAX_READ]))
+
+
+# What the compiler can tell; of glm's vectors it says nothing. GCC takes parts of a std::optional for such variables.
+_WARNED = re.compile(
+    r"(?<![^/\\\n])(?P<file>[\w.-]{1,80}):(?P<line>\d{1,7}):\d{1,7}: (?:warning: (?:variable )?|note: )"
+    r"'(?!std::)(?:[\w{}]{1,80}(?:::|\.(?!std::))){0,9}(?P<name>[A-Za-z_]\w{0,80})' "
+    r"(?:(?:is|may be) (?:used )?uninitialized|was (?P<declared>declared) here)",
+)
+_OF_GLM = "Look for a declaration without a value: `glm::vec3 sum;` holds anything, `glm::vec3 sum(0.0F);` begins at 0."
+
+
+def _warned(step: Step, log: str) -> str:
+    """The variable and its place, where it is declared if that is told; or nothing."""
+    found = [one for one in _WARNED.finditer(log) if one["file"] in step.files]
+    one = next((one for one in found if one["declared"]), found[0] if found else None)
+    return "" if one is None else f"`{one['name']}` ({one['file']}:{one['line']})"
+
+
+def used_without_value(step: Step, result: StepResult) -> Iterator[Diagnosis]:
+    """That some function used such a variable: by what it gave, or as the compiler warned."""
+    said = [(test.name.partition(":")[0], test.expression, test.expanded) for test in result.tests if not test.passed]
+    said += [(item.name, item.expected, item.actual) for item in result.hidden if not item.passed]
+    seen = {name for name, expected, got in said if _has_no_value(got) and not _has_no_value(expected)}
+    names = [name for name in step.functions if name in seen]
+    warned = _warned(step, result.build_log)
+    hint = f"Give {warned} a value where it is declared." if warned else _OF_GLM
+    if names:
+        title = f"In {join_and(names)} a variable is used that was given no value: numbers like -1.7e+38 come of that."
+        yield Diagnosis("finding", "used-without-value", title, hint=hint, seen_in=names)
+    elif warned:
+        title = f"{warned} may be used before it was given a value, as the compiler warns."
+        yield Diagnosis("finding", "used-without-value", title, hint=hint)
+
+
 _MAX_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before
 
 
@@ -197,7 +254,8 @@ class Diagnostician:
         found = list(transformations(self.kit, self.step, open_, pictures))
         told = {name for one in found for name in one.seen_in}
         rest = {name: picture for name, picture in open_.items() if name not in told}
-        return [*named, *found, *findings(self.kit, self.step, rest)]
+        first = used_without_value(self.step, result)
+        return [*first, *named, *found, *findings(self.kit, self.step, rest)]
 
     def _mistakes(self, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
         """Known mistakes, and the pictures that they spoil."""

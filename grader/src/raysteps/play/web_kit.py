@@ -30,6 +30,8 @@ _KIT, _LIBRARIES, _PARTS, _WORK = "/kit", "/libraries", "/parts", "/work"
 _OWN_FOLDERS = ("framework", ".", "framework/absent")  # the last has the headers of steps that a students' kit lacks
 _INCLUDES = (*(f"-I{posixpath.normpath(f'{_KIT}/{name}')}" for name in _OWN_FOLDERS), "-isystem", _LIBRARIES)
 _WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wno-unused-parameter")
+# As RAYSTEPS_STUDENTS_OPTIONS in cmake/compiler.cmake: a variable that was given no value is wrong each time.
+_OWN = (*_WARNINGS, "-ftrivial-auto-var-init=pattern")
 _QUIET = "-w"  # the native build warns about what it compiles, too
 # Catch2 2 for a system without signals, where nobody optimises what runs for a moment.
 _TESTING = (_QUIET, "-DCATCH_CONFIG_NO_POSIX_SIGNALS", "-DCATCH_CONFIG_COLOUR_NONE")
@@ -366,7 +368,7 @@ class WebKit:
 
     def step_command(self) -> list[str]:
         """How a student's step is compiled."""
-        return [*self._commands[_OWN_LEVEL, False], *_INCLUDES, *_WARNINGS, "-fno-caret-diagnostics"]
+        return [*self._commands[_OWN_LEVEL, False], *_INCLUDES, *_OWN, "-fno-caret-diagnostics"]
 
     def headers_text(self, step: Step, includes: str) -> str:
         """What is compiled ahead of a source with these first lines. What it adds to them brings names of namespace
@@ -382,7 +384,7 @@ class WebKit:
 
     def headers_command(self) -> list[str]:
         """How these are compiled; the page does it, too, when a student includes something else."""
-        return [*self._commands[_OWN_LEVEL, True], *_INCLUDES, *_WARNINGS, *_PORTABLE]
+        return [*self._commands[_OWN_LEVEL, True], *_INCLUDES, *_OWN, *_PORTABLE]
 
     def _linked(self, *names: str) -> Path:
         """A program of these parts and of what they need of the framework."""
