@@ -69,6 +69,33 @@ def test_listing(tmp_path: Path) -> None:
         list_entries(tmp_path / "missing", [])
 
 
+def test_a_link_to_another_entry_is_told_from_one_that_leads_elsewhere(tmp_path: Path) -> None:
+    folder, store = tmp_path / "class", tmp_path / "store"
+    for place in (folder / "alice" / "steps", store / "eve", store / "fay", store / "gil" / "steps"):
+        place.mkdir(parents=True)
+    for file in (folder / "bob.zip", folder / "alice" / "steps.zip"):
+        file.touch()
+    links: dict[str, str | Path] = {
+        "direct": folder / "alice", "chained": folder / "direct", "inner.zip": folder / "alice" / "steps.zip",
+        "relative": "alice/steps", "around": "../class/alice", "twin.zip": "bob.zip", "dangling": "alice/nothing",
+        "eve": store / "eve", "fay": store / "fay", "nowhere": store / "nobody", "itself": "itself",
+        "gil": store / "gil", "gus": store / "gil", "steps": store / "gil" / "steps",
+    }  # fmt: skip
+    for name, target in links.items():
+        (folder / name).symlink_to(target)
+    found = {entry.label: set(entry.leads_to) for entry in list_entries(folder, []).entries}
+    assert {name for name, others in found.items() if not others} == {
+        *("alice", "bob.zip", "eve", "fay", "nowhere", "itself"),
+    }
+    assert "alice" in found["direct"] & found["chained"] & found["inner.zip"] & found["relative"] & found["around"]
+    assert found["twin.zip"] == {"bob.zip"}
+    assert (found["gil"], found["gus"], found["steps"]) == ({"gus", "steps"}, {"gil", "steps"}, {"gil", "gus"})
+    (folder / "all").symlink_to(".")
+    assert {"alice", "bob.zip"} < set(
+        next(one for one in list_entries(folder, []).entries if one.label == "all").leads_to
+    )
+
+
 def test_names_cannot_steer_a_terminal(tmp_path: Path) -> None:
     for name in ("\x1b[2Ja\nb\tc", "a b c", "\x07", "\x07\x07"):
         (tmp_path / name).mkdir()

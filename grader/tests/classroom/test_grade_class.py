@@ -136,6 +136,34 @@ def test_what_goes_wrong_with_one_stops_none(tmp_path: Path, capsys: pytest.Capt
     assert "7 of 7" in printed.err
 
 
+def test_a_link_to_another_submission_earns_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Links that lead elsewhere are for instructors."""
+    inbox, out, page = tmp_path / "in", tmp_path / "out", tmp_path / "out" / "class.html"
+    write_entry(inbox, "alice", "// points 9\n")
+    write_entry(inbox, "mallory", "// points 2\n")
+    inbox.joinpath("stored").symlink_to(write_entry(tmp_path / "store", "sue", "// points 7\n"))
+    assert grade_class(inbox, "--out", out) == 0
+    assert _points(out) == {"alice": 9, "mallory": 2, "stored": 7}
+    (inbox / "mallory").rename(tmp_path / "aside")
+    (inbox / "mallory").symlink_to("alice")
+    (inbox / "inside").mkdir()
+    (inbox / "inside" / "steps").symlink_to("../alice/steps")
+    write_entry(inbox, "file", "")
+    (inbox / "file" / "steps" / FIRST).unlink()
+    (inbox / "file" / "steps" / FIRST).symlink_to(inbox / "alice" / "steps" / FIRST)
+    capsys.readouterr()
+    for folder, resume in ((out, ["--resume"]), (tmp_path / "fresh", [])):
+        assert grade_class(inbox, "--out", folder, *resume) == 0
+        assert _points(folder) == {"alice": 9, "file": 0, "inside": 0, "mallory": 0, "stored": 7}
+        assert _document(folder)["unreadable"] == ["mallory"]
+        told = capsys.readouterr().out
+        assert "mallory: It is a link to another submission of the class, and no submission counts twice." in told
+        assert "mallory leads to the files of alice. Put what was handed in in place of the link; of a team," in told
+    assert "mallory leads to the files of alice." in page.read_text()
+    assert "mallory leads to the files of alice." in {row["submission"]: row["note"] for row in _table(out)}["mallory"]
+    assert "alice" not in (out / "submissions" / "mallory" / "results.json").read_text()  # her student reads that
+
+
 def test_twice_gives_the_same(tmp_path: Path, handed_in: Path) -> None:
     outs = [tmp_path / "one", tmp_path / "two"]
     for out, jobs in zip(outs, (1, 3), strict=True):

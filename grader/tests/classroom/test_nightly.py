@@ -264,6 +264,14 @@ def test_what_cannot_be_read_is_told_and_takes_nothing(course: Course) -> None:
     assert "Feedback today: 0 of 2." in course.status("ann")
 
 
+def test_a_link_to_another_submission_is_not_given_its_result(course: Course) -> None:
+    course.hand_in("alice", "// points 9\n")
+    (course.inbox / "ann").symlink_to("alice")
+    course.look()
+    assert "no submission counts twice" in course.report("ann")
+    assert "Feedback today: 0 of 2." in course.status("ann")
+
+
 def test_another_kit_takes_no_feedback(course: Course, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     course.words = [course.inbox, "--per-day", "1"]
     course.hand_in("ann", "// points 1\n")

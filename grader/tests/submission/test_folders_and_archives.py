@@ -57,7 +57,9 @@ def test_links_to_folders_are_not_followed(tmp_path: Path, steps: list[Step]) ->
     (inside / "steps" / "04-shadows").symlink_to(outside / "steps" / "04-shadows")
     (inside / "round").symlink_to(inside)
     (inside / "root").symlink_to("/")
-    assert set(load_submission(inside, steps).sources) == {"06-octree"}
+    taken = load_submission(inside, steps)
+    assert set(taken.sources) == {"06-octree"}
+    assert taken.notes == {"04-shadows": "The folder steps/04-shadows is a link and was not followed."}
 
 
 def test_what_is_no_file_is_named(tmp_path: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ import os
 import re
 import stat
 import unicodedata
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -29,6 +29,7 @@ class Entry:
 
     path: Path
     label: str
+    leads_to: tuple[str, ...] = ()  # the labels of other entries whose files a link has, or some of them
 
 
 class NoSubmission(UsageError):
@@ -74,6 +75,24 @@ def _label(path: Path, known: set[str]) -> str:
     return label if label.strip() and label not in known else f"{label} {mark}".strip()
 
 
+def _told_apart(entries: Sequence[Entry], folder: Path) -> list[Entry]:
+    """Two entries must not be one submission: a link says so that shares files with another entry. One that leads out
+    of the folder is an entry as any other."""
+    root = Path(os.path.realpath(folder))
+    places = [Path(os.path.realpath(entry.path)) for entry in entries]
+    at, within = defaultdict[Path, list[str]](list), defaultdict[Path, list[str]](list)
+    for entry, place in zip(entries, places, strict=True):
+        at[place].append(entry.label)
+        for above in (place, *place.parents):
+            within[above].append(entry.label)
+    found = []
+    for entry, place in zip(entries, places, strict=True):
+        is_link = place != root / entry.path.name
+        shared = [*within[place], *(label for above in place.parents for label in at[above])] if is_link else []
+        found.append(replace(entry, leads_to=tuple(label for label in shared if label != entry.label)))
+    return found
+
+
 def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
     """In an order that does not depend on the machine."""
     try:
@@ -93,7 +112,7 @@ def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
             entries.append(Entry(path, label))
     if not entries:
         raise NoSubmission(f"{folder}: holds no submission; expected one folder, zip or tar per submission")
-    return Listing(entries, ignored)
+    return Listing(_told_apart(entries, folder), ignored)
 
 
 def _file_times(folder: Path) -> Iterator[float]:
@@ -147,11 +166,16 @@ class LoadedEntry:
 
 
 NOTHING_TAKEN = "Nothing was taken from this submission: it "  # before why
+# Its student need not know whose; the note to the instructor says it.
+ANOTHERS = "is a link to another submission of the class, and no submission counts twice"
 
 
-def load_entry(name: str, path: Path, steps: list[Step]) -> LoadedEntry:
+def load_entry(name: str, entry: Entry, steps: list[Step]) -> LoadedEntry:
     """What the student packed badly is the student's; what this machine cannot read is a GraderFault."""
+    path = entry.path
     try:
+        if entry.leads_to:
+            raise UsageError(ANOTHERS)
         if not path.exists() or (path.is_dir() and not os.access(path, os.R_OK | os.X_OK)):
             raise GraderFault(f"{path}: is not there any more, or must not be read")
         return LoadedEntry(replace(load_submission(path, steps), name=name))

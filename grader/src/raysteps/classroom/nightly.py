@@ -230,7 +230,7 @@ class Round:
         work = key = ""
         unreadable = False
         try:
-            taken = load_entry(name, entry.path, self.plan.steps)
+            taken = load_entry(name, entry, self.plan.steps)
             key = submission_key(taken.submission, self.kit, self.plan.grading)
             work = sources_digest(taken.submission)
             unreadable = taken.unreadable

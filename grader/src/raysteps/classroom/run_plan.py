@@ -18,7 +18,7 @@ from raysteps.classroom.roster import Matches, Student, match, read_roster
 from raysteps.common.documents import Amount
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.platform import own_command, quote_command
-from raysteps.common.text import count
+from raysteps.common.text import count, join_and
 from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import Course
@@ -155,6 +155,18 @@ def read_run_inputs(options: ClassOptions) -> RunInputs:
     return given
 
 
+_MAX_NAMED = 3
+
+
+def _leads_to(entry: Entry) -> str:
+    more = len(entry.leads_to) - _MAX_NAMED
+    others = [*entry.leads_to[:_MAX_NAMED], *([f"{more} more"] if more > 0 else [])]
+    return (
+        f"{entry.label} leads to the files of {join_and(others)}. Put what was handed in in place of the link; of a "
+        'team, name one submission for all in the roster\'s column "submission" and delete the link.'
+    )
+
+
 @dataclass(frozen=True)
 class Plan:
     """`entries` are those of this shard, with their names."""
@@ -215,6 +227,8 @@ class Plan:
             if len(said) > 1:
                 times_said = ", ".join(time for _, time in said)
                 note = f"Its students have different times in the roster ({times_said}); the latest counts."
+            if entry.leads_to:
+                note = " ".join(filter(None, (_leads_to(entry), note)))
             rows.append(Registered(entry.label, names[entry.label], scope, when, source, note))
         return rows
 

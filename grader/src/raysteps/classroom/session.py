@@ -130,7 +130,7 @@ class Session:
         for entry in self.plan.mine() if self.entries is None else self.entries:
             name = self.names[entry.label]
             try:
-                taken = load_entry(name, entry.path, self.plan.steps)
+                taken = load_entry(name, entry, self.plan.steps)
             except GraderFault as fault:
                 self._record(Answer(name, "fault", fault=str(fault), worker="head"), _Pending("", False))
                 continue

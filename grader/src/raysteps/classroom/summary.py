@@ -203,7 +203,7 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     missing = ", or a shard is missing" if any(run.shard != "1/1" for run in document.runs) else ""
     _print_list(console, f"Not graded yet; --resume goes on{missing}", document.not_graded)
     _print_list(console, "With an earlier result, because what is there now is not graded yet", document.outdated)
-    unread = [f"{name}: {' '.join(by_name[name].not_taken)}" for name in document.unreadable]
+    unread = [f"{name}: {' '.join(by_name[name].why_unread)}" for name in document.unreadable]
     _print_list(console, "Nothing could be read of these, so they have 0 points", unread)
     files = [
         f"{one.name}: {words}" for one in document.submissions if one.status == "graded" for words in one.not_taken

@@ -7,7 +7,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from raysteps.classroom.entries import list_entries, name_entries
+from raysteps.classroom.entries import ANOTHERS, list_entries, name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
 from raysteps.common.text import clean, count
@@ -53,8 +53,8 @@ def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], le
     found: Started = {}
     for entry in entries:
         try:
-            started = _started(load_submission(entry.path, every), stubs)
-            note = "" if started else "holds no step that was begun"
+            started = {} if entry.leads_to else _started(load_submission(entry.path, every), stubs)
+            note = ANOTHERS if entry.leads_to else "" if started else "holds no step that was begun"
         except UsageError as error:
             started, note = {}, str(error).removeprefix(f"{entry.path}: ")
         if note:

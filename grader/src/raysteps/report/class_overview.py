@@ -271,9 +271,12 @@ class _Finder:
     def faults(self) -> list[Item]:
         return [self._item(name, [_first_line(one.fault)]) for name, one in self._of(self._document.faults)]
 
-    def not_taken(self, status: str) -> list[Item]:
-        found = [one for one in self._document.submissions if one.status == status]
-        return [self._item(one.name, one.not_taken) for one in found if one.not_taken or status == "unreadable"]
+    def unreadable(self) -> list[Item]:
+        return [self._item(name, one.why_unread) for name, one in self._of(self._document.unreadable)]
+
+    def not_taken(self) -> list[Item]:
+        found = [one for one in self._document.submissions if one.status == "graded"]
+        return [self._item(one.name, one.not_taken) for one in found if one.not_taken]
 
     def late_by_file(self) -> list[Item]:
         return [
@@ -330,14 +333,14 @@ def groups(document: ClassResults) -> list[Group]:
             "bad",
             "Nothing could be read of these",
             "0 points, which count in no mean.",
-            find.not_taken("unreadable"),
+            find.unreadable(),
         ),
         Group(
             "file not read",
             "warn",
             "Files that could not be read",
             "Their steps have 0 points, as if they were not handed in.",
-            find.not_taken("graded"),
+            find.not_taken(),
         ),
         Group("not graded", "warn", "Not graded yet", "--resume goes on with these.", find.plain(document.not_graded)),
         Group(

@@ -95,6 +95,11 @@ class GradedSubmission:
         """As the grader gave them."""
         return self.points if self.review.automatic is None else self.review.automatic
 
+    @property
+    def why_unread(self) -> list[str]:
+        """Where nothing could be read; the note may say what to do about it."""
+        return [*self.not_taken, *filter(None, [self.note])]
+
 
 @dataclass
 class RunCounts:

@@ -14,6 +14,8 @@ from raysteps.submission.entries import Entry, RejectedFile, check_size, is_out_
 _FILE = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC"))
 _FOLDER = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_DIRECTORY", "O_CLOEXEC"))
 
+_NOT_READ, _NOT_FOLLOWED = "cannot be read", "is a link and was not followed"
+
 
 def what_is(mode: int) -> str:
     """What somebody gave in place of a file."""
@@ -50,7 +52,7 @@ class FolderReader:
     def __init__(self, root: Path) -> None:
         self._root = root
         self._seen = 0
-        self.closed: list[tuple[str, ...]] = []
+        self.closed: dict[tuple[str, ...], str] = {}  # and why
 
     def entries(self) -> Iterator[Entry]:
         followed = _FOLDER & ~getattr(os, "O_NOFOLLOW", 0)  # the folder itself was named by whoever grades
@@ -84,6 +86,8 @@ class FolderReader:
                 yield Entry(path, partial(_read, folder, name))
             else:
                 yield Entry(path, not_a_file(what_is(mode)))
+            if stat.S_ISLNK(mode):
+                self.closed[path] = _NOT_FOLLOWED
             if stat.S_ISDIR(mode) and not is_out_of_sight(path):
                 yield from self._into(folder, name, path)
 
@@ -91,7 +95,7 @@ class FolderReader:
         try:
             handle = os.open(name, _FOLDER, dir_fd=folder)
         except OSError:
-            self.closed.append(path)
+            self.closed[path] = _NOT_READ
             return
         try:
             yield from self._below(handle, path)
@@ -126,7 +130,7 @@ class PlainFolderReader:
     def __init__(self, root: Path) -> None:
         self._root = root
         self._seen = 0
-        self.closed: list[tuple[str, ...]] = []
+        self.closed: dict[tuple[str, ...], str] = {}  # and why
 
     def entries(self) -> Iterator[Entry]:
         yield from self._below(self._root, ())
@@ -143,6 +147,7 @@ class PlainFolderReader:
         for child in self._children(folder):
             path = (*parts, child.name)
             if _is_link(child):
+                self.closed[path] = _NOT_FOLLOWED
                 yield Entry(path, not_a_file("a link"))
             elif child.is_file():
                 yield Entry(path, partial(_read_by_path, Path(child.path)))
@@ -156,4 +161,4 @@ class PlainFolderReader:
         try:
             yield from self._below(folder, path)
         except PermissionError:
-            self.closed.append(path)
+            self.closed[path] = _NOT_READ

@@ -179,10 +179,10 @@ class _Collector:
         if path not in copies and len(copies) < _MAX_COPIES:
             copies.append(path)
 
-    def cannot_look_into(self, folders: list[tuple[str, ...]]) -> None:
-        for folder in folders:
+    def cannot_look_into(self, folders: Mapping[tuple[str, ...], str]) -> None:
+        for folder, why in folders.items():
             for step in self._places.below(folder):
-                self._problems.setdefault(step, f"The folder {shown(folder)} cannot be read.")
+                self._problems.setdefault(step, f"The folder {shown(folder)} {why}.")
 
     def submission(self, name: str) -> Submission:
         result = Submission(name, {}, self._near | self._problems)
