@@ -72,13 +72,34 @@ def test_a_copy_is_found_and_told(places: Path, tmp_path: Path, capsys: pytest.C
     assert document["submissions"] == ["ann", "bob", "cy", "eve"]
     assert document["pairs_compared"] == 6
     assert document["pairs"][0]["longest_passage"] > 100
-    assert "1 pair of 6 from 30 % on" in said.out
+    assert "1 pair of 6 from likeness 30 on" in said.out
     assert "never a verdict" in said.out
     assert f"Page: {page}" in said.out
     assert "notes.txt is left out" in said.err
     text = page.read_text(encoding="utf-8")
     assert _SCRIPT not in text
     assert "&lt;/pre&gt;&lt;script&gt;alert(1)" in text
+
+
+def test_copies_are_told_to_be_the_same_however_little_they_hold(
+    tmp_path: Path, steps: list[Step], solved: Sources, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Likeness, which is less for little code, is not said to be a per cent of it."""
+    facts, page = tmp_path / "similar.json", tmp_path / "page.html"
+    for name in ("ann", "bob"):
+        _hand_in(tmp_path / "class" / name, steps, {step.id: solved[step.id] for step in steps[:2]})
+    assert _similar(str(tmp_path / "class"), "--out", str(page), "--json", str(facts)) == 0
+    (pair,) = parse(facts.read_bytes(), Similarity, complete=True).pairs
+    assert (pair.whole.first, pair.whole.second) == (1, 1)
+    assert 0.3 < pair.likeness < 0.9
+    row = next(line for line in capsys.readouterr().out.splitlines() if "ann" in line and "bob" in line)
+    cells = [cell.strip() for cell in row.strip("│").split("│")]
+    assert cells == [str(int(100 * pair.likeness)), "ann", "bob", "all", "100 %", "100 %", cells[6], "2 of 2"]
+    text = page.read_text(encoding="utf-8")
+    assert "2 of 2 files the same, letter by letter" in text
+    assert f"likeness {int(100 * pair.likeness)}, most in" in text
+    assert "100 % of the first is in the second, 100 % of the second in the first" in text
+    assert f"{int(100 * pair.likeness)} %" not in text
 
 
 def test_an_earlier_term_is_compared_with_this_one_only(places: Path, tmp_path: Path) -> None:

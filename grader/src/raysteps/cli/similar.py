@@ -151,6 +151,8 @@ class ShownPair:
     pair: Likeness
     words: int
     longest: int
+    same: int  # files, letter by letter
+    both: int  # files that both have
     steps: Sequence[tuple[ShownFile | None, ShownFile | None]]  # step by step, side by side
 
 
@@ -165,11 +167,14 @@ def _shown(
 ) -> ShownPair:
     steps: list[tuple[ShownFile | None, ShownFile | None]] = []
     if number <= _MAX_CODE:
-        ours = _files(handed[pair.first], sides[0], [(one.first, one.length) for one in found])
-        theirs = _files(handed[pair.second], sides[1], [(one.second, one.length) for one in found])
-        steps = [(ours.get(step), theirs.get(step)) for step in sorted({*ours, *theirs})]
+        left = _files(handed[pair.first], sides[0], [(one.first, one.length) for one in found])
+        right = _files(handed[pair.second], sides[1], [(one.second, one.length) for one in found])
+        steps = [(left.get(step), right.get(step)) for step in sorted({*left, *right})]
     lengths = [one.length for one in found]
-    return ShownPair(number, pair, sum(lengths), max(lengths, default=0), steps)
+    ours, theirs = handed[pair.first].sources, handed[pair.second].sources
+    both = ours.keys() & theirs.keys()
+    same = sum(ours[step] == theirs[step] for step in both)
+    return ShownPair(number, pair, sum(lengths), max(lengths, default=0), same, len(both), steps)
 
 
 # The page, the table and the JSON.
@@ -225,20 +230,27 @@ def _document(
     )
 
 
+def _rank(likeness: float) -> str:
+    """Without the sign of per cent: it is made smaller where there is little code, and so a share of nothing."""
+    return str(math.floor(100 * likeness))
+
+
 def _print(console: Console, handed: Sequence[Handed], shown: Sequence[ShownPair], compared: Comparison) -> None:
     table = Table(title="The most alike", title_justify="left")
-    for heading in ("likeness", "first", "second", "most alike in", "of first", "of second", "longest"):
+    for heading in ("likeness", "first", "second", "most alike in", "of first", "of second", "longest", "same files"):
         table.add_column(heading, justify="left" if heading in ("first", "second") else "right", overflow="fold")
     for one in shown[:_FIRST]:
         names = [escape(printable(handed[at].name)) for at in (one.pair.first, one.pair.second)]
         shares = [f"{100 * share:.0f} %" for share in (one.pair.whole.first, one.pair.whole.second)]
         table.add_row(
-            f"{math.floor(100 * one.pair.value)} %", *names, one.pair.most[:2] or "all", *shares, f"{one.longest} words"
+            *(_rank(one.pair.value), *names, one.pair.most[:2] or "all", *shares),
+            *(f"{one.longest} words", f"{one.same} of {one.both}"),
         )
     console.print(table)
     console.print(
-        f"{count(compared.look, 'pair')} of {compared.amount} from {100 * LOOK:.0f} % on, which is worth a look; "
-        f"half of all are below {100 * compared.median:.0f} %.",
+        f"{count(compared.look, 'pair')} of {compared.amount} from likeness {_rank(LOOK)} on, which is worth a look; "
+        f"half of all are below {_rank(compared.median)}. Likeness is from 0 to 100, and less where there is little "
+        "code; the shares are per cent of one's own code.",
         highlight=False,
     )
     console.print("A high number is a reason to look and to talk, never a verdict.", highlight=False)
