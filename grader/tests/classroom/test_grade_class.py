@@ -164,6 +164,24 @@ def test_a_link_to_another_submission_earns_nothing(tmp_path: Path, capsys: pyte
     assert "alice" not in (out / "submissions" / "mallory" / "results.json").read_text()  # her student reads that
 
 
+def test_lists_are_sorted_as_people_read_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Grading itself goes by the names of the entries, which differ in nothing."""
+    names = ["Anna", "bob", "Éva", "Fay_Wu", "s2", "s10"]
+    roster, out = tmp_path / "roster.csv", tmp_path / "out"
+    for name in reversed(names):
+        write_entry(tmp_path / "in", name, "// fault" if name in ("s2", "s10") else "// points 1")
+    roster.write_text("id,name\nb10,Zed\nB9,Yan\na1,Xi\n")
+    assert grade_class(tmp_path / "in", "--out", out, "--roster", roster) == 4
+    document, told = _document(out), capsys.readouterr().out
+    assert [one["name"] for one in document["submissions"]] == names
+    assert document["faults"] == ["s2", "s10"]
+    assert [one["id"] for one in document["students_without_submission"]] == ["a1", "B9", "b10"]
+    assert [row["submission"] for row in _table(out)][:6] == names
+    assert sorted(names, key=told.index) == names
+    page = (out / "class.html").read_text()
+    assert sorted(names[:4], key=lambda name: page.index(f">{name}<")) == names[:4]
+
+
 def test_twice_gives_the_same(tmp_path: Path, handed_in: Path) -> None:
     outs = [tmp_path / "one", tmp_path / "two"]
     for out, jobs in zip(outs, (1, 3), strict=True):

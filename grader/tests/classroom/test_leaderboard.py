@@ -72,12 +72,13 @@ def _others(board: Document) -> dict[str, str]:
 
 def test_the_least_work_is_first_and_memory_decides_ties(tmp_path: Path, project: Project, steps: list[Step]) -> None:
     measured = {"ann": (2000, 1), "bob": (500, 9000), "cid": (500, 4000), "dan": (500, 4000), "eve": (1000, 4000)}
+    measured["Cleo_Wu"] = (500, 4000)
     results = {name: _graded(steps, name, *numbers) for name, numbers in measured.items()}
     document = _ranking(project, tmp_path, _class(tmp_path / "class", results))
     assert [board["id"] for board in document["steps"]] == ["06-octree", "09-bvh"]
     for board in document["steps"]:
-        assert _places(board) == [(1, "cid"), (1, "dan"), (3, "bob"), (4, "eve"), (5, "ann")]
-        assert [one["work"] for one in board["ranked"]] == [0.5, 0.5, 0.5, 1, 2]
+        assert _places(board) == [(1, "cid"), (1, "Cleo_Wu"), (1, "dan"), (4, "bob"), (5, "eve"), (6, "ann")]
+        assert [one["work"] for one in board["ranked"]] == [0.5, 0.5, 0.5, 0.5, 1, 2]
         assert board["reference_bytes"] == 3000 * len(board["pictures"])
         assert board["not_ranked"] == []
 

@@ -4,7 +4,7 @@ import unicodedata
 
 import pytest
 
-from raysteps.common.text import clean, one_line, printable, seen
+from raysteps.common.text import clean, name_order, one_line, printable, seen
 
 _UNSEEN = [
     "\u00ad",
@@ -43,3 +43,26 @@ def test_words_stay_as_they_are() -> None:
     text = "żółw 光線 مرحبا é e\u0301\n\tx = 1;"
     assert printable(text) == seen(text) == clean(text) == text
     assert one_line("a\nb\tc") == "a b c"
+
+
+def test_names_stand_where_people_look_for_them() -> None:
+    names = [
+        "",
+        "\ud800",
+        "7",
+        "007 b",
+        "10",
+        "Ann Lee",
+        "ann_lee-2",
+        "Anna",
+        "bob",
+        "Éva",
+        "Evan",
+        "Fay_Wu",
+        "Łukasz",
+        "Mia",
+    ]
+    names += ["s", "s 1", "s2", "s02b", "s10", f"s{'9' * 5000}"]
+    names_in_disorder = [*names[7:], *names[:7]]
+    assert sorted(names_in_disorder, key=name_order) == names
+    assert sorted(["ann", "Ann"], key=name_order) == sorted(["Ann", "ann"], key=name_order)

@@ -370,3 +370,15 @@ def test_a_folder_without_a_class(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
     with pytest.raises(UsageError, match="holds no class"):
         write_all(tmp_path)
+
+
+def test_the_table_is_sorted_as_people_read_it(tmp_path: Path) -> None:
+    names = ["ann", "Bea", "cid", "s2", "s10"]
+    for name in names:
+        write_entry(tmp_path / "in", name, _CODE)
+    assert grade_class(tmp_path / "in", "--out", tmp_path / "out") == 0
+    desk = Desk(tmp_path / "out", "Ada")
+    try:
+        assert [row["name"] for row in desk.overview()["rows"]] == names
+    finally:
+        desk.close()

@@ -85,7 +85,7 @@ class Standings:
         self._students: dict[int, list[Student]] = defaultdict(list)  # by submission
         for row in self._query(
             "SELECT submission, id, name, email FROM students JOIN handed_in ON handed_in.student = students.number "
-            "ORDER BY id, name, email"
+            "ORDER BY name_order(id), name_order(name), email"
         ):
             self._students[row["submission"]].append(Student(row["id"], row["name"], row["email"]))
 
@@ -209,20 +209,21 @@ class _Report:
         return sorted(student for student in extensions if student not in known)
 
     def _names(self, scope: str) -> list[str]:
-        rows = self._query("SELECT name FROM submissions WHERE scope = ? ORDER BY entry", (scope,))
+        rows = self._query("SELECT name FROM submissions WHERE scope = ? ORDER BY name_order(name)", (scope,))
         return [row["name"] for row in rows]
 
     def document(self) -> ClassResults:
-        rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY entry").fetchall()
+        rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY name_order(name)").fetchall()
         standings = self._standings
         submissions = [self._known.get(row["name"]) or standings.of(row) for row in rows]
         absent = self._query(
             "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
-            "ORDER BY id, name, email"
+            "ORDER BY name_order(id), name_order(name), email"
         )
         several = self._query(
             "SELECT id, name, email, note FROM students WHERE number IN "
-            "(SELECT student FROM handed_in GROUP BY student HAVING count(*) > 1) ORDER BY id, name, email"
+            "(SELECT student FROM handed_in GROUP BY student HAVING count(*) > 1) "
+            "ORDER BY name_order(id), name_order(name), email"
         )
         students = self._query("SELECT count(*) AS amount FROM students").fetchone()["amount"]
         finals = [one.final for one in submissions if one.status == "graded" and one.final is not None]

@@ -15,6 +15,7 @@ from typing import Any, Literal
 from raysteps.classroom.jobs import Answer
 from raysteps.common.documents import plain
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.text import name_order
 from raysteps.results.model import Feedback, Settings
 
 # The tables of class.sqlite, and how the file is opened.
@@ -231,6 +232,12 @@ def _refuse_emptied(connection: sqlite3.Connection, path: Path) -> None:
                 raise UsageError(f"{path}: is empty, but {name} beside it holds results of a class; {_way_back(path)}")
 
 
+def _prepare(connection: sqlite3.Connection) -> None:
+    """Lists for people are sorted where they are asked for: `ORDER BY name_order(name)`."""
+    connection.row_factory = sqlite3.Row
+    connection.create_function("name_order", 1, name_order, deterministic=True)
+
+
 def open_database(path: Path, *, check: bool = True) -> sqlite3.Connection:
     """Opens the database of a class, and makes it when there is none. `check` reads all of it, to find damage."""
     was_there = path.exists()
@@ -238,7 +245,7 @@ def open_database(path: Path, *, check: bool = True) -> sqlite3.Connection:
         # Whoever shares a connection among threads sees to it that one at a time uses it.
         connection = sqlite3.connect(path, isolation_level=None, timeout=30, check_same_thread=False)
         try:
-            connection.row_factory = sqlite3.Row
+            _prepare(connection)
             connection.execute("PRAGMA foreign_keys = ON")
             version_of(connection, path)
             if check:
@@ -589,7 +596,7 @@ def open_readonly(path: Path) -> Iterator[sqlite3.Connection]:
         raise UsageError(f"{path}: cannot be opened: {error}") from error
     with closing(connection):
         with telling_of(path, "read"):
-            connection.row_factory = sqlite3.Row
+            _prepare(connection)
             connection.execute("BEGIN")
             version = version_of(connection, path)
             _check_whole(connection)

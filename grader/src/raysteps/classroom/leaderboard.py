@@ -16,7 +16,7 @@ from raysteps.classroom.class_document import OTHER_FORM, read_class_document
 from raysteps.classroom.database import FILE, LATEST, open_readonly
 from raysteps.common.documents import Amount, Count, Text, checked
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count, printable, size
+from raysteps.common.text import count, name_order, printable, size
 from raysteps.course.manifest import Step
 from raysteps.results.model import Results
 from raysteps.results.store import read_results, stored_results
@@ -30,7 +30,7 @@ _WHY_NOT = {
 }
 _QUERY = (
     "SELECT submissions.name, results.status, results.document FROM submissions LEFT JOIN results "  # noqa: S608
-    f"ON results.submission = submissions.id AND run = ({LATEST}) WHERE scope = 'here' ORDER BY entry"
+    f"ON results.submission = submissions.id AND run = ({LATEST}) WHERE scope = 'here'"
 )
 
 
@@ -157,7 +157,7 @@ def _standing(work_ratio: WorkRatio) -> tuple[float, int]:
 
 def _in_place(work_ratios: Sequence[tuple[str, WorkRatio]]) -> list[Ranked]:
     """Names come last: among equals their order must tell nothing, should they be hidden."""
-    ordered = sorted(work_ratios, key=lambda one: (*_standing(one[1]), *one[1].pictures.values(), one[0]))
+    ordered = sorted(work_ratios, key=lambda one: (*_standing(one[1]), *one[1].pictures.values(), name_order(one[0])))
     places = [_standing(work_ratio) for _, work_ratio in ordered]
     return [Ranked(places.index(_standing(work_ratio)) + 1, name, work_ratio) for name, work_ratio in ordered]
 
@@ -174,7 +174,7 @@ def rank(entered: Sequence[LeaderboardEntry], step: Step) -> Board:
             continue
         work_ratios.append((one.name, work_ratio))
         kits |= {one.results.kit} if one.results is not None else set()
-    others.sort(key=lambda other: (other.reason, other.name))
+    others.sort(key=lambda other: (other.reason, name_order(other.name)))
     return Board(step, _in_place(work_ratios), others, sorted(kits))
 
 

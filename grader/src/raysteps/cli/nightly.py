@@ -28,7 +28,7 @@ from raysteps.cli.grade_class import add_grading_arguments, only_one, read_optio
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason_and_place
 from raysteps.common.files import usable_folder
 from raysteps.common.platform import refuse_on_windows
-from raysteps.common.text import count
+from raysteps.common.text import count, name_order
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
@@ -194,7 +194,7 @@ class _Night:
             ("still being uploaded", _named(look.looks, "changing")),
             ("of nobody on the roster", _named(look.looks, "nobody")),
             ("the grader failed", failed),
-            ("with new comments or points", sorted(look.told_again)),
+            ("with new comments or points", sorted(look.told_again, key=name_order)),
         ):
             parts += [f"{what}: {', '.join(names)}"] if names else []
         line = "; ".join(parts)
@@ -204,7 +204,7 @@ class _Night:
 
 
 def _named(looks: list[Look], state: str) -> list[str]:
-    return sorted(look.name for look in looks if look.state == state)
+    return sorted((look.name for look in looks if look.state == state), key=name_order)
 
 
 def _is_unfinished(database: ClassDatabase, out: Path) -> bool:

@@ -73,6 +73,16 @@ def searchable(text: str) -> str:
     return "".join(plain_letters().get(letter, letter) for letter in bare)
 
 
+_BETWEEN_WORDS = re.compile(r"[\W_]+")
+_NUMBER = re.compile("0*([0-9]+)")
+
+
+def name_order(text: str) -> str:
+    """By this people look for names in a list: `bob` before `Fay_Wu`, `s2` before `s10`, `Éva` beside `Eva`."""
+    words = _BETWEEN_WORDS.sub(" ", searchable(text)).strip()
+    return _NUMBER.sub(lambda found: f"{len(found[1]):03}{found[1]}", words) + f"\n{text}"
+
+
 _ALIKE = 0.65  # of three letters two in their order are enough, of five not three
 
 

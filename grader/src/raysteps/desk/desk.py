@@ -156,7 +156,7 @@ class Desk:
         rows = self._query(
             "SELECT name, coalesce((SELECT max(run) FROM results WHERE submission = id), 0) AS run, "
             "coalesce((SELECT max(serial) FROM annotations WHERE submission = id), 0) AS serial "
-            "FROM submissions WHERE scope = 'here' ORDER BY entry"
+            "FROM submissions WHERE scope = 'here' ORDER BY name_order(name)"
         )
         return {row["name"]: (row["run"], row["serial"]) for row in rows}
 

@@ -10,7 +10,7 @@ from typing import Any
 from raysteps.classroom.entries import ANOTHERS, list_entries, name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
-from raysteps.common.text import clean, count
+from raysteps.common.text import clean, count, name_order
 from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.mutants import read_alternatives, reference_source
 from raysteps.course.project import Project
@@ -48,7 +48,7 @@ def _started(submission: Submission, stubs: dict[Step, str]) -> dict[Step, bytes
 
 def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> Started:
     """What each has begun, by name; who has begun nothing is named on stderr."""
-    entries = list_entries(folder, left_out).entries
+    entries = sorted(list_entries(folder, left_out).entries, key=lambda entry: name_order(entry.label))
     names = name_entries([entry.label for entry in entries], {})
     found: Started = {}
     for entry in entries:
