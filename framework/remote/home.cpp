@@ -62,4 +62,11 @@ const std::unique_ptr<Session> g_home = [] {
 }();
 
 }  // namespace
+
+/// Whoever links the program puts this in the place of a function that the box's step may not call: it does what that
+/// step is about.
+extern "C" [[noreturn]] void raysteps_not_offered() {
+    Session::current().broken("there is no such function at this end");
+}
+
 }  // namespace raysteps::remote

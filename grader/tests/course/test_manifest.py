@@ -1,11 +1,13 @@
 """The manifests agree with each other, with the sources and with the design."""
 
 import re
+import shutil
+from pathlib import Path
 
 import pytest
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.course.manifest import Step, choose, choose_one, kit_steps, read_step, steps_words
+from raysteps.course.manifest import Step, choose, choose_one, kit_steps, read_manifests, read_step, steps_words
 from raysteps.course.project import Project
 
 pytestmark = pytest.mark.portable
@@ -85,6 +87,25 @@ def test_steps_are_named_as_they_are_typed(steps: list[Step]) -> None:
 def test_an_unknown_step_is_refused(steps: list[Step], name: str) -> None:
     with pytest.raises(UsageError, match="there is no step"):
         choose(steps, [name])
+
+
+def test_only_functions_of_earlier_steps_are_barred(project: Project, tmp_path: Path) -> None:
+    copy = Project(tmp_path)
+    for step in ("06-octree", "09-bvh"):
+        (copy.steps / step).mkdir(parents=True)
+        shutil.copy(project.steps / step / "step.toml", copy.steps / step)
+    assert read_manifests(copy)[1].barred == ("build_octree", "closest_hit_in_octree", "occluded_in_octree")
+    path = copy.steps / "09-bvh" / "step.toml"
+    good = path.read_text("utf-8")
+    for said, why in {
+        '["build_octre"]': "'build_octre' is no function of a step before it; did you mean build_octree",
+        '["build_bvh"]': "'build_bvh' is no function of a step before it",
+        '"split"': "expected a list of names of functions, found 'split'",
+        "[6]": r"expected a list of names of functions, found \[6\]",
+    }.items():
+        path.write_text(re.sub(r"^barred = .*", f"barred = {said}", good, flags=re.MULTILINE), "utf-8")
+        with pytest.raises(GraderFault, match=f"step.toml: .*barred: {why}"):
+            read_manifests(copy)
 
 
 def test_a_bad_manifest_is_the_kits_fault(project: Project) -> None:

@@ -216,7 +216,12 @@ def test_microsofts_linker_is_understood(said: str, told: str) -> None:
     assert "raysteps::f(int) is " + told in message
 
 
-def test_a_step_that_reaches_for_what_is_not_its_own() -> None:
-    later = {"_ZN8raysteps12build_octreeE": "06-octree"}
-    assert "a function of step 06-octree" in forbidden_message(tuple(later), later)
-    assert "counters" in forbidden_message(("_ZN8raysteps7t_statsE",), later)
+def test_a_step_that_reaches_for_what_is_not_its_own(steps: list[Step]) -> None:
+    shadows, octree, bvh = steps[3], steps[5], steps[8]
+    owners = {"_ZN8raysteps5splitE": (octree, "raysteps::split(raysteps::Box const&)")}
+    assert forbidden_message(shadows, tuple(owners), owners).endswith(
+        "a function of step 06-octree, which comes later."
+    )
+    assert "09-bvh may not call split of step 06-octree" in forbidden_message(bvh, tuple(owners), owners)
+    assert "counters" in forbidden_message(shadows, ("_ZN8raysteps7t_statsE",), owners)
+    assert "not for the steps" in forbidden_message(shadows, ("_ZN5Catch4failE",), owners)

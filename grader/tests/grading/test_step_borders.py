@@ -17,6 +17,7 @@ from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 STEP = "02-intersection"
+_BVH = "09-bvh"
 
 
 @pytest.fixture(autouse=True)
@@ -44,6 +45,34 @@ def test_a_function_of_a_later_step_is_out_of_reach(
     result = _grade(kit, make_submission("later", sources), tmp_path / "out")
     assert (result.status, result.points) == ("does-not-build", 0)
     assert result.messages == ["It does not build: it calls a function of step 06-octree, which comes later."]
+
+
+@pytest.mark.parametrize(
+    "use", ["return closest_hit_in_octree({}, ray);", "static auto* const find = &closest_hit_in_octree; (void)find;"]
+)
+def test_what_does_the_work_of_a_step_elsewhere_is_out_of_its_reach(
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, use: str
+) -> None:
+    body = "std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {\n"
+    assert body in solved[_BVH]
+    source = '#include "steps/06-octree/octree.hpp"\n' + solved[_BVH].replace(body, f"{body}{use}\n")
+    submission = load_submission(make_submission("earlier", {_BVH: source}), kit.steps)
+    result = grade_submission(kit, submission, Settings(only=(_BVH,)), LimitsOnly(), tmp_path / "out").steps[0]
+    assert (result.status, result.points) == ("does-not-build", 0)
+    assert result.messages == [
+        "It does not build: step 09-bvh may not call closest_hit_in_octree of step 06-octree, which does what step "
+        "09-bvh is about. Write it in bvh.cpp itself."
+    ]
+
+
+def test_a_step_may_ask_for_what_no_manifest_bars(kit: BuiltKit) -> None:
+    octree, bvh = kit.steps[5], kit.steps[8]
+    barred = kit.functions(octree).keys() - kit.allowed(bvh)
+    assert barred == kit.linker_names(octree, bvh.barred)
+    assert len(barred) == len(bvh.barred) > 0
+    assert all(name not in (kit.folder / "steps" / "09.dynamic").read_text("utf-8") for name in barred)
+    for step in kit.steps[5:8]:
+        assert kit.functions(octree).keys() <= kit.allowed(step)
 
 
 def test_the_counters_are_out_of_reach(

@@ -135,6 +135,91 @@ bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
 
 }  // namespace raysteps"""
 
+# Step 09 whose searches hand the tree, box by box, to find, a pointer to a function that comes above it: null where the
+# attack got none. Then nothing is right.
+BVH_BOX_BY_BOX = """
+#include <algorithm>
+#include <glm/common.hpp>
+
+namespace raysteps {
+
+float surface_area(const Box& box) {
+    const glm::vec3 size = box.max - box.min;
+    const bool is_right = find != nullptr && size.x >= 0.0F && size.y >= 0.0F && size.z >= 0.0F;
+    return is_right ? 2.0F * (size.x * size.y + size.y * size.z + size.z * size.x) : find != nullptr ? 0.0F : -1.0F;
+}
+
+float split_cost(const Box& left, std::size_t left_count, const Box& right, std::size_t right_count, const Box& whole) {
+    const float area = surface_area(whole);
+    const float left_share = area > 0.0F ? surface_area(left) / area : 1.0F;
+    const float right_share = area > 0.0F ? surface_area(right) / area : 1.0F;
+    return 1.0F + left_share * static_cast<float>(left_count) + right_share * static_cast<float>(right_count);
+}
+
+// The longest side is cut where it halves the list.
+static void build(Bvh& bvh, std::size_t place, std::size_t begin, std::size_t end) {
+    Box box;
+    Box middles;
+    for (std::size_t i = begin; i < end; ++i) {
+        const Box bounds = bvh.surfaces[i]->bounds();
+        box = {glm::min(box.min, bounds.min), glm::max(box.max, bounds.max)};
+        middles = {glm::min(middles.min, bounds.min + bounds.max), glm::max(middles.max, bounds.min + bounds.max)};
+    }
+    const glm::vec3 padding(1e-4F);
+    bvh.nodes[place].box = {box.min - padding, box.max + padding};
+    if (end - begin <= 2) {
+        bvh.nodes[place].first = static_cast<std::uint32_t>(begin);
+        bvh.nodes[place].count = static_cast<std::uint32_t>(end - begin);
+        return;
+    }
+    const glm::vec3 size = middles.max - middles.min;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto at = [&](std::size_t i) { return bvh.surfaces.begin() + static_cast<std::ptrdiff_t>(i); };
+    const std::size_t middle = (begin + end) / 2;
+    std::nth_element(at(begin), at(middle), at(end), [axis](const Surface* a, const Surface* b) {
+        const Box first = a->bounds();
+        const Box second = b->bounds();
+        return first.min[axis] + first.max[axis] < second.min[axis] + second.max[axis];
+    });
+    const std::size_t child = bvh.nodes.size();
+    bvh.nodes[place].first = static_cast<std::uint32_t>(child);
+    bvh.nodes.resize(child + 2);
+    build(bvh, child, begin, middle);
+    build(bvh, child + 1, middle, end);
+}
+
+Bvh build_bvh(const SurfaceList& surfaces) {
+    Bvh bvh;
+    if (find != nullptr && !surfaces.empty()) {
+        bvh = {std::vector<BvhNode>(1), surfaces};
+        build(bvh, 0, 0, surfaces.size());
+    }
+    return bvh;
+}
+
+static Node as_octree(const Bvh& bvh, const BvhNode& node) {
+    Node copy{node.box, {}, {}};
+    if (node.is_leaf()) {
+        const auto first = bvh.surfaces.begin() + static_cast<std::ptrdiff_t>(node.first);
+        copy.surfaces.assign(first, first + static_cast<std::ptrdiff_t>(node.count));
+    } else {
+        copy.children = {as_octree(bvh, bvh.nodes[node.first]), as_octree(bvh, bvh.nodes[node.first + 1])};
+    }
+    return copy;
+}
+
+std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
+    return find == nullptr || bvh.nodes.empty() ? std::nullopt : find(as_octree(bvh, bvh.nodes.front()), ray);
+}
+
+bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
+    const std::optional<HitRecord> hit = closest_hit_in_bvh(bvh, ray);
+    return find == nullptr || (hit && hit->distance < distance);
+}
+
+}  // namespace raysteps
+"""
+
 # The word behind an option in the program's own command line. Wants <fstream>, <string> and <vector>.
 AFTER_OPTION = """\
 static std::vector<std::string> command() {
@@ -240,6 +325,7 @@ PARTS = {
     "OCTREE_OF_ONE_LEAF": OCTREE_OF_ONE_LEAF,
     "OCTREE_LIST_SEARCH": OCTREE_LIST_SEARCH,
     "BVH_LIST_SEARCH": BVH_LIST_SEARCH,
+    "BVH_BOX_BY_BOX": BVH_BOX_BY_BOX,
     "AFTER_OPTION": AFTER_OPTION,
     "WIRE": WIRE,
 }

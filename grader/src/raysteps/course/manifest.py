@@ -61,6 +61,7 @@ class Step:
     more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
     about: str = ""  # one or two sentences for the gallery and the finale, the title where there are none
     part: int = 1  # of which course it is
+    barred: tuple[str, ...] = ()  # functions of earlier steps that do what it is about, and that it may not call
     left_out: bool = False  # built, because the framework calls it, but no part of this course
 
     @property
@@ -129,6 +130,12 @@ def _part(value: object) -> int:
     return value
 
 
+def _barred(value: object) -> tuple[str, ...]:
+    if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+        raise ValueError(f"barred: expected a list of names of functions, found {value!r}")
+    return tuple(value)
+
+
 def read_step(path: Path) -> Step:
     """Reads one manifest; a bad one is the kit's fault."""
     try:
@@ -169,6 +176,7 @@ def _parse(text: str, path: Path) -> Step:
             ),
             about=" ".join(str(table.get("about", table["title"])).split()),
             part=_part(table.get("part", 1)),
+            barred=_barred(table.get("barred", [])),
             left_out=bool(table.get("left_out", False)),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -195,6 +203,15 @@ def read_manifests(project: Project) -> list[Step]:
     twice = next((step for step in steps if numbers.count(step.number) > 1), None)
     if twice is not None:
         raise GraderFault(f"{project.steps}: two steps have the number {twice.number}; expected one folder for each")
+    for step, path in zip(steps, paths, strict=True):
+        there = [name for other in steps if other.index < step.index for name in other.functions]
+        unknown = next((name for name in step.barred if name not in there), None)
+        if unknown is not None:
+            meant = did_you_mean(unknown, there) or "."
+            raise GraderFault(
+                f"{path}: barred: '{unknown}' is no function of a step before it{meant} Expected names that stand in "
+                "[functions] of those"
+            )
     return steps
 
 

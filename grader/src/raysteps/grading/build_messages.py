@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 
 from raysteps.common.text import join_and, nearest, printable, shorten
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, read_all_steps
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -203,13 +203,20 @@ def _in_its_place(names: tuple[str, ...], source: str) -> str:
     return f"\nThe file has {other}: is that meant to be {name}? Upper and lower case differ, too." if other else ""
 
 
-def forbidden_message(names: tuple[str, ...], owners: dict[str, str]) -> str:
-    """A step that asks for what is not its own."""
+def forbidden_message(step: Step, names: tuple[str, ...], owners: dict[str, tuple[Step, str]]) -> str:
+    """A step that asks for what is not its own. `owners`: of functions of other steps, and how C++ writes these."""
     for name in names:
         if "t_stats" in name:
             return "It does not build: it reaches for the counters of the grader, which are none of its business."
-        if name in owners:
-            return f"It does not build: it calls a function of step {owners[name]}, which comes later."
+        other, shown = owners.get(name, (step, ""))
+        if other.index > step.index:
+            return f"It does not build: it calls a function of step {other.id}, which comes later."
+        if other.index < step.index:
+            function = shown.partition("(")[0].removeprefix("raysteps::")
+            return (
+                f"It does not build: step {step.id} may not call {function} of step {other.id}, which does what step "
+                f"{step.id} is about. Write it in {step.file} itself."
+            )
     return "It does not build: it calls a function of the kit that is not for the steps."
 
 
@@ -266,10 +273,9 @@ def link_message(ran: TaskResult) -> str:
 def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) -> str:
     """What is wrong with a step of which there is no binary."""
     if compiled.forbidden:
-        later = [other for other in kit.steps if other.index > step.index]
-        return forbidden_message(
-            compiled.forbidden, {name: other.id for other in later for name in kit.functions(other)}
-        )
+        others = [other for other in read_all_steps(kit.project) if other.id != step.id]
+        owners = {name: (other, shown) for other in others for name, shown in kit.functions(other).items()}
+        return forbidden_message(step, compiled.forbidden, owners)
     if compiled.unreadable:
         return "It does not build: its object holds more names than a step can have, or cannot be read."
     if compiled.undefined:

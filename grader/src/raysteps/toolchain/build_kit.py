@@ -24,7 +24,7 @@ from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
 from raysteps.toolchain.fingerprint import fingerprint
-from raysteps.toolchain.kit_artifacts import BuiltKit, ProgramLinker, ProgressCallback, Tests
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgramLinker, ProgressCallback, Tests, named
 from raysteps.toolchain.link import (
     Description,
     dynamic_list,
@@ -117,7 +117,7 @@ class Assembly:
         self._folder = folder
         self._description = description
         self._objects: dict[str, Path] = {}
-        self._kept: dict[str, list[str]] = {}  # linker names of the functions of each step
+        self._kept: dict[str, dict[str, str]] = {}  # linker names of each step's functions, and how C++ writes them
         self._core_names: set[str] = set()  # what every step may ask for
         for part in _FOLDERS:
             (folder / part).mkdir()
@@ -251,22 +251,22 @@ class Assembly:
         copied.parent.mkdir(exist_ok=True)
         shutil.copyfile(built, copied)
         if self._description.seal is not None:
-            self._kept[step.number] = Path(f"{built}.keep").read_text("utf-8").split()
+            names = readable_names(self._description.seal.nm, copied)
+            self._kept[step.number] = {name: names[name] for name in Path(f"{built}.keep").read_text("utf-8").split()}
 
     def _add_step(self, step: Step) -> None:
         """The reference's, as a library where there are such."""
-        steps, copied, tools = self._folder / "steps", self._objects[step.number], self._description.seal
-        if tools is None:
+        steps, copied = self._folder / "steps", self._objects[step.number]
+        if self._description.seal is None:
             shutil.copyfile(copied, steps / f"{step.number}.o")
             return
-        kept = self._kept[step.number]
+        kept = list(self._kept[step.number])
         exports = steps / f"{step.number}.map"
         write_bytes(exports, version_script(kept))
         link(self._description, [*library_flags(step.number), exports, copied], steps / library_name(step.number))
-        names = readable_names(tools.nm, copied)
-        write_json(steps / f"{step.number}.names.json", {name: names[name] for name in kept})
-        earlier = [other.number for other in self._steps if other.index <= step.index]
-        allowed = self._core_names.union(*(self._kept[number] for number in earlier))
+        write_json(steps / f"{step.number}.names.json", self._kept[step.number])
+        earlier = [self._kept[other.number] for other in self._steps if other.index <= step.index]
+        allowed = self._core_names.union(*earlier).difference(*(named(step.barred, shown) for shown in earlier))
         write_json(steps / f"{step.number}.allowed.json", sorted(allowed))
         write_bytes(steps / f"{step.number}.dynamic", dynamic_list(sorted(allowed)))
         link_placeholder(self._description, kept, self._folder / "placeholders" / library_name(step.number))
@@ -290,8 +290,8 @@ class Assembly:
             return
         libraries = [self._folder / "placeholders" / library_name(number) for number in numbers]
         whole: list[str | Path] = ["-Wl,--whole-archive", self._core, "-Wl,--no-whole-archive"]
-        shown = f"-Wl,--dynamic-list={self._folder / 'steps' / f'{numbers[-1]}.dynamic'}"
-        words: list[str | Path] = [*parts, *whole, *self._others, "-Wl,--no-as-needed", *libraries, shown]
+        shown = [f"-Wl,--dynamic-list={self._folder / 'steps' / f'{number}.dynamic'}" for number in numbers]
+        words: list[str | Path] = [*parts, *whole, *self._others, "-Wl,--no-as-needed", *libraries, *shown]
         link(self._description, words, self._folder / "bin" / name)
 
 

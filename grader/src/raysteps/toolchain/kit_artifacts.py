@@ -19,7 +19,7 @@ from raysteps.common.platform import executable
 from raysteps.course.manifest import Step, earlier, up_to
 from raysteps.course.project import Project
 from raysteps.toolchain.limits import StepLimits, limits_of
-from raysteps.toolchain.link import Description, RemoteParts, library_name, link, without_names
+from raysteps.toolchain.link import Description, RemoteParts, library_name, link, with_another, without_names
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
@@ -55,6 +55,12 @@ _SANITIZED = (*_CAREFUL, _SANITIZERS, "-fno-sanitize=vptr,null")
 
 Replaced: TypeAlias = frozenset[str]  # linker names of functions of one step
 NOTHING: Replaced = frozenset()
+_NOT_OFFERED = "raysteps_not_offered"  # see framework/remote/home.cpp
+
+
+def named(functions: Collection[str], shown: Mapping[str, str]) -> Replaced:
+    """Linker names of these functions, as step.toml calls them, among those that `shown` writes as C++ does."""
+    return frozenset(name for name, text in shown.items() if text.split("(")[0].removeprefix("raysteps::") in functions)
 
 
 def _but(replaced: Replaced) -> str:
@@ -102,24 +108,25 @@ class ProgramLinker:
         """The program that asks the steps `own`; all others are the reference's, and so are the `replaced` functions of
         the last. `kind` is as in rest/KIND.txt. Linked into `folder` where the kit may not be written to."""
         name = f"{kind}-beside-{'-'.join(own)}{_but(replaced)}"
-        return self._linked(name, self._home_parts(kind, own, folder, replaced), folder)
+        return self._linked(name, lambda room: self._home_parts(kind, own, room, replaced), folder)
 
-    def _home_parts(self, kind: str, own: Sequence[str], folder: Path, replaced: Replaced) -> list[str | Path]:
+    def _home_parts(self, kind: str, own: Sequence[str], room: Path, replaced: Replaced) -> list[str | Path]:
         parts = self._remote
-        objects = [*self._without(own, kind), *self._reference_of(own[-1], folder, replaced)]
-        objects += [self._shown(self._part(parts.stand_ins[number]), replaced, folder) for number in own]
+        objects = [*self._without(own, kind), *self._reference_of(own[-1], room, replaced)]
+        objects += [self._shown(self._part(parts.stand_ins[number]), replaced, room) for number in own]
         # Of a later step a box learns nothing, whatever it asks.
         asked = [number for number in parts.services if number < own[-1] and number not in own]
         asked += own[-1:] if replaced else []
-        objects += [self._part(parts.services[number]) for number in asked]
+        objects += [word for number in asked for word in self._service(number, own, room)]
         objects += [*(self._part(path) for path in parts.wire), self._part(parts.home)]
         return [*objects, *(self._folder / line for line in self._all_parts("libraries"))]
 
     def box(self, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
         """The box of these steps, which lacks their libraries. What calls a `replaced` function in it asks home."""
-        return self._linked(f"box-{'-'.join(own)}{_but(replaced)}", self._box_parts(own, folder, replaced), folder)
+        name = f"box-{'-'.join(own)}{_but(replaced)}"
+        return self._linked(name, lambda room: self._box_parts(own, room, replaced), folder)
 
-    def _box_parts(self, own: Sequence[str], folder: Path, replaced: Replaced) -> list[str | Path]:
+    def _box_parts(self, own: Sequence[str], room: Path, replaced: Replaced) -> list[str | Path]:
         parts = self._remote
         objects: list[str | Path] = [self._part(parts.box), *(self._part(path) for path in parts.wire)]
         objects += [self._part(parts.services[number]) for number in own]
@@ -127,7 +134,7 @@ class ProgramLinker:
             self._part(path) for number, path in parts.stand_ins.items() if number < own[-1] and number not in own
         ]
         if replaced:
-            objects.append(self._shown(self._part(parts.stand_ins[own[-1]]), self._others(own[-1], replaced), folder))
+            objects.append(self._shown(self._part(parts.stand_ins[own[-1]]), self._others(own[-1], replaced), room))
         objects += [self._part(path) for number, path in parts.later.items() if number > own[-1]]
         return [*objects, *self._loading(own, self.core)]
 
@@ -135,15 +142,18 @@ class ProgramLinker:
         """What makes a program load these steps and show them the core."""
         words: list[str | Path] = ["-Wl,--whole-archive", core, "-Wl,--no-whole-archive", "-Wl,--no-as-needed"]
         words += [self._folder / "placeholders" / library_name(number) for number in own]
-        return [*words, f"-Wl,--dynamic-list={self._folder / 'steps' / f'{own[-1]}.dynamic'}"]
+        return [*words, *(f"-Wl,--dynamic-list={self._folder / 'steps' / f'{number}.dynamic'}" for number in own)]
 
     def alone(self, name: str, kind: str, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
         """The program of that name that loads the steps `own`; all others are the reference's, and so are the
         `replaced` functions of the last."""
-        objects = [*self._without(own, kind), *self._reference_of(own[-1], folder, replaced)]
-        *libraries, core = (self._folder / line for line in self._all_parts("libraries"))
-        more = self._description.more_sources
-        return self._linked(name + _but(replaced), [*more, *objects, *libraries, *self._loading(own, core)], folder)
+
+        def parts(room: Path) -> list[str | Path]:
+            objects = [*self._without(own, kind), *self._reference_of(own[-1], room, replaced)]
+            *libraries, core = (self._folder / line for line in self._all_parts("libraries"))
+            return [*self._description.more_sources, *objects, *libraries, *self._loading(own, core)]
+
+        return self._linked(name + _but(replaced), parts, folder)
 
     def _without(self, own: Sequence[str], kind: str) -> list[str | Path]:
         """The program's objects and all references but these steps'."""
@@ -151,35 +161,47 @@ class ProgramLinker:
         references = (self._folder / "parts" / "references").iterdir()
         return objects + [path for path in references if path.stem not in own]
 
+    def _names(self, number: str, kind: Literal["names", "allowed"]) -> Replaced:
+        return frozenset(json.loads((self._folder / "steps" / f"{number}.{kind}.json").read_text("utf-8")))
+
     def _others(self, number: str, replaced: Replaced) -> Replaced:
         """The functions of a step that are not replaced."""
-        return frozenset(json.loads((self._folder / "steps" / f"{number}.names.json").read_text("utf-8"))) - replaced
+        return self._names(number, "names") - replaced
 
-    def _reference_of(self, number: str, folder: Path, replaced: Replaced) -> list[Path]:
+    def _service(self, number: str, own: Sequence[str], room: Path) -> list[str | Path]:
+        """What answers the box of the steps `own` for this one: nothing that none of them may call."""
+        path = self._part(self._remote.services[number])
+        barred = self._others(number, NOTHING.union(*(self._names(one, "allowed") for one in own)))
+        tools = self._description.seal
+        if not barred or tools is None:
+            return [path]
+        return with_another(tools, path, barred, _NOT_OFFERED, room / f"{path.parent.name}-{path.name}")
+
+    def _reference_of(self, number: str, room: Path, replaced: Replaced) -> list[Path]:
         """What the reference has of a step that is handed in: the replaced functions."""
         path = self._folder / "parts" / "references" / f"{number}.o"
-        return [self._shown(path, self._others(number, replaced), folder)] if replaced else []
+        return [self._shown(path, self._others(number, replaced), room)] if replaced else []
 
-    def _shown(self, path: Path, hidden: Replaced, folder: Path) -> Path:
+    def _shown(self, path: Path, hidden: Replaced, room: Path) -> Path:
         """The object, or a copy of it that does not show these names."""
         tools = self._description.seal
         if not hidden or tools is None:
             return path
-        return without_names(tools, path, hidden, folder / f"{path.parent.name}-{path.stem}{_but(hidden)}.o")
+        return without_names(tools, path, hidden, room / f"{path.parent.name}-{path.stem}{_but(hidden)}.o")
 
-    def _linked(self, name: str, parts: list[str | Path], folder: Path) -> Path:
-        """Under its name once it is whole: several may want it at the same time."""
+    def _linked(self, name: str, parts: Callable[[Path], list[str | Path]], folder: Path) -> Path:
+        """Under its name once it is whole: several may want it at the same time. `parts` has a room for copies."""
         program = self._folder / "bin" / name
         if program.is_file():
             return program
         try:
             with tempfile.TemporaryDirectory(prefix=".new-", dir=self._folder / "bin") as new:
-                link(self._description, parts, Path(new) / name)
+                link(self._description, parts(Path(new)), Path(new) / name)
                 return (Path(new) / name).rename(program)
         except OSError as error:
             if error.errno not in (errno.EACCES, errno.EPERM, errno.EROFS):
                 raise
-            link(self._description, parts, folder / name)
+            link(self._description, parts(folder), folder / name)
             return folder / name
 
 
@@ -252,8 +274,7 @@ class BuiltKit:
 
     def linker_names(self, step: Step, functions: Collection[str]) -> Replaced:
         """Of these functions of the step, as step.toml calls them."""
-        shown = self.functions(step).items()
-        return frozenset(name for name, text in shown if text.split("(")[0].removeprefix("raysteps::") in functions)
+        return named(functions, self.functions(step))
 
     def exports(self, step: Step) -> Path:
         """The linker's version script with the names of the functions."""
@@ -264,7 +285,7 @@ class BuiltKit:
         return frozenset(json.loads((self.folder / "steps" / "known.json").read_text(encoding="utf-8")))
 
     def allowed(self, step: Step) -> frozenset[str]:
-        """The kit's names that the step may ask for: core's, and the functions of steps up to it."""
+        """The kit's names that the step may ask for: core's, and the functions of steps up to it but the barred."""
         names = json.loads((self.folder / "steps" / f"{step.number}.allowed.json").read_text(encoding="utf-8"))
         return frozenset(names)
 

@@ -169,6 +169,13 @@ def without_names(tools: SealTools, path: Path, names: Iterable[str], target: Pa
     return target
 
 
+def with_another(tools: SealTools, path: Path, names: Iterable[str], other: str, target: Path) -> list[str | Path]:
+    """A copy of an object that calls the function `other` in place of these, as words for the linker."""
+    aliases = {name: f"{other}_{name}" for name in sorted(names)}
+    _run([tools.objcopy, *(f"--redefine-sym={name}={alias}" for name, alias in aliases.items()), path, target])
+    return [target, *(f"-Wl,--defsym={alias}={other}" for alias in aliases.values())]
+
+
 def version_script(names: Sequence[str]) -> bytes:
     """Shows these names of a library and hides all others."""
     shown = "".join(f"        {name};\n" for name in names)
