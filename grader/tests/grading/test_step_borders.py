@@ -48,7 +48,8 @@ def test_a_function_of_a_later_step_is_out_of_reach(
 
 
 @pytest.mark.parametrize(
-    "use", ["return closest_hit_in_octree({}, ray);", "static auto* const find = &closest_hit_in_octree; (void)find;"]
+    "use",
+    ["return closest_hit_in_octree({}, ray);", "static auto* volatile find = &closest_hit_in_octree; (void)find;"],
 )
 def test_what_does_the_work_of_a_step_elsewhere_is_out_of_its_reach(
     kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, use: str

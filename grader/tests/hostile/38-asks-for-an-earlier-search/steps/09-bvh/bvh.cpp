@@ -18,6 +18,8 @@ static const auto find = [] {
     const std::string tree = all_of(raysteps::Box(), 0U, 0U);
     const std::string ray = all_of(glm::vec3(0.0F), glm::vec3(1.0F), 1e9F);
     send_to_all(message(0, 0, all_of(search, no, 1U, 1U, yes, 4U, 0U) + tree + ray));
-    return anything_answers() ? &nothing : nullptr;
+    const bool is_answered = anything_answers();
+    send_to_all(message(0, 1, all_of(0U, 0U, no)));  // to what the program itself has asked first: see box/main.cpp
+    return is_answered ? &nothing : nullptr;
 }();
 @BVH_BOX_BY_BOX@
