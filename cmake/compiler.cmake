@@ -53,8 +53,8 @@ else()
     endif()
 endif()
 
-# For students' files. A variable that was given no value holds the same wrong one wherever and whenever its function
-# runs: the mistake shows at once, and not first on another machine.
+# For students' files. A variable that was given no value holds the same wrong one whenever its function runs: the
+# mistake shows at once, and not first on another machine. Each compiler has a value of its own; some have no such option.
 include(CheckCXXCompilerFlag)
 set(RAYSTEPS_STUDENTS_OPTIONS "")
 if(NOT MSVC)

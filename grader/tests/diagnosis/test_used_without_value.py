@@ -7,7 +7,7 @@ from conftest import MakeSubmission, Sources
 
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import replaced_once
-from raysteps.diagnosis.diagnose import used_without_value
+from raysteps.diagnosis.diagnose import used_without_value, warned_of
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import HiddenResult, Settings, StepResult, TestResult
 from raysteps.sandbox.detect import find_sandbox
@@ -15,41 +15,48 @@ from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _FILLED = "-1.6947395e+38"
+_ABOUT = {"shade: lights add up": ["shade"], "Light: mirrors": ["mirror", "specular"]}
 
 
-def _result(step: Step, got: str = "", *, expected: str = "1", log: str = "") -> StepResult:
-    test = TestResult(
-        "shade: lights add up", False, expression=f"shade(hit) = {expected}", expanded=f"shade(hit) = {got}"
-    )
-    return StepResult(step.id, "failed", 0.0, step.points, step.bonus, tests=[test], build_log=log)
+def _result(
+    step: Step, got: str = "", *, expected: str = "1", log: str = "", test: str = "shade: lights add up"
+) -> StepResult:
+    failed = TestResult(test, False, expression=f"shade(hit) = {expected}", expanded=f"shade(hit) = {got}")
+    return StepResult(step.id, "failed", 0.0, step.points, step.bonus, tests=[failed], build_log=log)
 
 
-@pytest.mark.parametrize(
-    "got",
-    [_FILLED, "-8.4736976e+37", "1.6947395e+38", "(0, 0, -1.69474e+38)", "-16843010", "18374403900871474942"],
-)
+@pytest.mark.parametrize("got", [_FILLED, "1.6947395e+38", "(0, 0, -1.69474e+38)", "-16843010", "18374403900871474942"])
 def test_a_number_that_nobody_means_is_told(steps: list[Step], got: str) -> None:
-    (found,) = used_without_value(steps[2], _result(steps[2], got))
+    (found,) = used_without_value(steps[2], _result(steps[2], got), _ABOUT)
     assert found.seen_in == ["shade"]
     assert "In shade a variable is used that was given no value" in found.title
 
 
+_FLT_MAX = ["3.4028235e+38", "8.5070592e+37", "1.7014118e+38", "(1.02e+38, 0, 3.2e+38)"]  # and its half, a part of it
+
+
 @pytest.mark.parametrize(
-    "got", ["0", "inf", "nan", "3.4028235e+38", "1e+38", "1e+36", "1e+30", "-16843011", "v1.69e+38"]
+    "got", ["0", "inf", "nan", "1e+38", "2e+36", "1e+30", "-16843011", "v1.6947395e+38", *_FLT_MAX]
 )
 def test_others_are_not(steps: list[Step], got: str) -> None:
-    assert not list(used_without_value(steps[2], _result(steps[2], got)))
+    assert not list(used_without_value(steps[2], _result(steps[2], got), _ABOUT))
 
 
 def test_nor_is_what_was_to_come_out(steps: list[Step]) -> None:
-    assert not list(used_without_value(steps[2], _result(steps[2], _FILLED, expected=_FILLED)))
+    assert not list(used_without_value(steps[2], _result(steps[2], _FILLED, expected=_FILLED), _ABOUT))
 
 
 def test_the_judges_cases_show_it_too(steps: list[Step]) -> None:
     result = _result(steps[2], "0")
     result.hidden.append(HiddenResult("diffuse", "function", 0.0, expected="(1, 1, 1)", actual=f"({_FILLED}, 0, 0)"))
-    (found,) = used_without_value(steps[2], result)
+    (found,) = used_without_value(steps[2], result, _ABOUT)
     assert found.seen_in == ["diffuse"]
+
+
+def test_a_test_is_about_what_its_tags_say(steps: list[Step]) -> None:
+    """Its name may be another than that of a function."""
+    (found,) = used_without_value(steps[2], _result(steps[2], _FILLED, test="Light: mirrors"), _ABOUT)
+    assert found.seen_in == ["mirror", "specular"]
 
 
 _USED = "phong_shading.cpp:52:11: warning: 'weights' may be used uninitialized [-Wmaybe-uninitialized]\n"
@@ -67,9 +74,9 @@ _DECLARED = "phong_shading.cpp:44:10: note: 'nearest.raysteps::{anonymous}::Foun
     ],
 )
 def test_what_the_compiler_says_of_it_has_its_place(steps: list[Step], log: str, place: str) -> None:
-    (found,) = used_without_value(steps[2], _result(steps[2], "0", log=log))
+    (found,) = warned_of(steps[2], _result(steps[2], "0", log=log))
     assert f"`weights` (phong_shading.cpp:{place}) may be used before it was given a value" in found.title
-    (found,) = used_without_value(steps[2], _result(steps[2], _FILLED, log=log))
+    (found,) = used_without_value(steps[2], _result(steps[2], _FILLED, log=log), _ABOUT)
     assert f"Give `weights` (phong_shading.cpp:{place}) a value" in found.hint
 
 
@@ -83,7 +90,18 @@ def test_what_the_compiler_says_of_it_has_its_place(steps: list[Step], log: str,
     ],
 )
 def test_what_it_says_of_others_has_none(steps: list[Step], log: str) -> None:
-    assert not list(used_without_value(steps[2], _result(steps[2], "0", log=log)))
+    assert not list(warned_of(steps[2], _result(steps[2], "0", log=log)))
+
+
+def _graded(kit: BuiltKit, solved: Sources, make: MakeSubmission, out: Path, *edits: tuple[str, str]) -> StepResult:
+    """Step 03 with these changes."""
+    step = "03-phong-shading"
+    source = solved[step]
+    for find, replace in edits:
+        source = replaced_once(source, find, replace, step)
+    submission = load_submission(make("no-value", {step: source}), kit.steps)
+    (result,) = grade_submission(kit, submission, Settings("diagnosis", only=(step,)), find_sandbox(), out).steps
+    return result
 
 
 def test_it_is_the_first_that_is_said_of_a_step(
@@ -92,11 +110,26 @@ def test_it_is_the_first_that_is_said_of_a_step(
     """glm's vectors hold anything at first, and no compiler warns of them; often it happens to be 0."""
     if not kit.description.compiler_version.startswith("GNU"):
         pytest.skip("another compiler fills variables with no number")
-    step = "03-phong-shading"
-    source = replaced_once(solved[step], "Color sum = k_black;", "Color sum;", step)
-    submission = load_submission(make_submission("no-value", {step: source}), kit.steps)
-    settings = Settings("diagnosis", only=(step,))
-    (result,) = grade_submission(kit, submission, settings, find_sandbox(), tmp_path / "out").steps
+    result = _graded(kit, solved, make_submission, tmp_path / "out", ("Color sum = k_black;", "Color sum;"))
     assert not any(test.passed for test in result.tests if "lights add up" in test.name)
     assert [found.id for found in result.diagnoses][:1] == ["used-without-value"]
     assert result.diagnoses[0].seen_in == ["shade"]
+
+
+def test_a_warning_does_not_hide_a_known_mistake(
+    kit: BuiltKit, solved: Sources, make_submission: MakeSubmission, tmp_path: Path
+) -> None:
+    """It is said after it: here the variable does no harm."""
+    lost = (
+        "std::max(glm::dot(to_light, normal), 0.0F);\n    return fill.kd",
+        "glm::dot(to_light, normal);\n    return fill.kd",
+    )
+    warned = (
+        "Color sum = k_black;",
+        "Color sum = k_black;\n    int count;\n    count += 1;\n    if (count == 7) {\n        return sum;\n    }",
+    )
+    result = _graded(kit, solved, make_submission, tmp_path / "out", lost, warned)
+    assert "`count`" in "".join(found.title for found in result.diagnoses)
+    kinds = [(found.kind, found.id) for found in result.diagnoses]
+    assert kinds[0][0] == "mistake", kinds
+    assert ("finding", "used-without-value") in kinds[1:]

@@ -61,19 +61,22 @@ def test_what_needs_unix_says_so(words: list[str]) -> None:
 
 
 def test_a_folder_is_taken_in_and_links_are_not(tmp_path: Path) -> None:
-    step = tmp_path / "steps" / "01-camera-rays"
+    step, elsewhere = tmp_path / "mine" / "steps" / "01-camera-rays", tmp_path / "02-intersection"
     step.mkdir(parents=True)
+    elsewhere.mkdir()
     (step / "camera_rays.cpp").write_bytes(b"int a;\r\nint b;\r\n")
-    (tmp_path / "steps" / "02-intersection").symlink_to(step)
+    step.with_name("02-intersection").symlink_to(elsewhere)
+    step.with_name("03-phong-shading").symlink_to(step)
     found = as_on_windows(f"""
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
 from raysteps.submission.load import load_submission
-taken = load_submission(pathlib.Path({str(tmp_path)!r}), read_steps(here()))
-print(taken.sources, taken.notes["02-intersection"])
+taken = load_submission(pathlib.Path({str(tmp_path / "mine")!r}), read_steps(here()))
+print(taken.sources, taken.notes)
 """)
-    note = "The folder steps/02-intersection is a link and was not followed."
-    assert found == str({"01-camera-rays": b"int a;\nint b;\n"}) + f" {note}"
+    sources = {"01-camera-rays": b"int a;\nint b;\n"}
+    notes = {"02-intersection": "The folder steps/02-intersection is a link and was not followed."}
+    assert found == f"{sources} {notes}"
 
 
 def test_a_lock_is_held_by_one(tmp_path: Path) -> None:

@@ -62,6 +62,17 @@ def test_links_to_folders_are_not_followed(tmp_path: Path, steps: list[Step]) ->
     assert taken.notes == {"04-shadows": "The folder steps/04-shadows is a link and was not followed."}
 
 
+def test_a_link_to_what_is_read_anyway_is_no_matter(tmp_path: Path, steps: list[Step]) -> None:
+    _good(tmp_path)
+    (tmp_path / "old").mkdir()
+    (tmp_path / "old" / "steps").symlink_to("../steps")
+    (tmp_path / "02-intersection").symlink_to("steps/02-intersection")
+    taken = load_submission(tmp_path, steps)
+    assert set(taken.sources) == {Path(GOOD).parent.name}
+    assert not taken.notes
+    assert not taken.remarks
+
+
 def test_what_is_no_file_is_named(tmp_path: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch) -> None:
     os.mkfifo(tmp_path / "shadows.cpp")
     (tmp_path / "octree.cpp").mkdir()

@@ -241,7 +241,7 @@ def _print(console: Console, handed: Sequence[Handed], shown: Sequence[ShownPair
         table.add_column(heading, justify="left" if heading in ("first", "second") else "right", overflow="fold")
     for one in shown[:_FIRST]:
         names = [escape(printable(handed[at].name)) for at in (one.pair.first, one.pair.second)]
-        shares = [f"{100 * share:.0f} %" for share in (one.pair.whole.first, one.pair.whole.second)]
+        shares = [f"{math.floor(100 * share)} %" for share in (one.pair.whole.first, one.pair.whole.second)]
         table.add_row(
             *(_rank(one.pair.value), *names, one.pair.most[:2] or "all", *shares),
             *(f"{one.longest} words", f"{one.same} of {one.both}"),
@@ -249,8 +249,8 @@ def _print(console: Console, handed: Sequence[Handed], shown: Sequence[ShownPair
     console.print(table)
     console.print(
         f"{count(compared.look, 'pair')} of {compared.amount} from likeness {_rank(LOOK)} on, which is worth a look; "
-        f"half of all are below {_rank(compared.median)}. Likeness is from 0 to 100, and less where there is little "
-        "code; the shares are per cent of one's own code.",
+        f"half of all have {math.ceil(100 * compared.median)} at most. Likeness is from 0 to 100, and less where there "
+        "is little code; the shares are per cent of one's own code.",
         highlight=False,
     )
     console.print("A high number is a reason to look and to talk, never a verdict.", highlight=False)

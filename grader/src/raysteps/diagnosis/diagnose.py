@@ -2,7 +2,7 @@
 
 import re
 import struct
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -169,21 +169,16 @@ def findings(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iter
 
 _FILL = b"\xfe"
 _NO_FLOAT = abs(float(struct.unpack("<f", 4 * _FILL)[0]))
-_SCALED = 1e-5  # by a factor such as a colour
+_DIGITS = 1e-5  # of it that are told
 _NO_WHOLE_NUMBERS = {str(struct.unpack(f"<{kind}", struct.calcsize(f"<{kind}") * _FILL)[0]) for kind in "iIqQ"}
 _NUMBER = re.compile(r"(?<![\w.])-?\d{1,40}(?:\.\d{1,40})?(?:e[+-]?\d{1,3})?(?![\w.])")
 _MAX_READ = 10_000  # characters of one answer
 
 
-def _is_no_value(number: str) -> bool:
-    """A power of ten is somebody's infinity."""
-    size = abs(float(number))
-    scaled = _SCALED * _NO_FLOAT <= size <= 1.001 * _NO_FLOAT and not f"{size:.5e}".startswith("1.00000e")
-    return scaled or number in _NO_WHOLE_NUMBERS
-
-
 def _has_no_value(text: str) -> bool:
-    return any(_is_no_value(number) for number in _NUMBER.findall(text[:_MAX_READ]))
+    """Whether one of its numbers is what fills such a variable, perhaps with the other sign."""
+    numbers = _NUMBER.findall(text[:_MAX_READ])
+    return any(number in _NO_WHOLE_NUMBERS or abs(abs(float(number)) / _NO_FLOAT - 1.0) < _DIGITS for number in numbers)
 
 
 # What the compiler can tell; of glm's vectors it says nothing. GCC takes parts of a std::optional for such variables.
@@ -192,6 +187,7 @@ _WARNED = re.compile(
     r"'(?!std::)(?:[\w{}]{1,80}(?:::|\.(?!std::))){0,9}(?P<name>[A-Za-z_]\w{0,80})' "
     r"(?:(?:is|may be) (?:used )?uninitialized|was (?P<declared>declared) here)",
 )
+_WITHOUT_VALUE = "used-without-value"
 _OF_GLM = "Look for a declaration without a value: `glm::vec3 sum;` holds anything, `glm::vec3 sum(0.0F);` begins at 0."
 
 
@@ -202,20 +198,25 @@ def _warned(step: Step, log: str) -> str:
     return "" if one is None else f"`{one['name']}` ({one['file']}:{one['line']})"
 
 
-def used_without_value(step: Step, result: StepResult) -> Iterator[Diagnosis]:
-    """That some function used such a variable: by what it gave, or as the compiler warned."""
-    said = [(test.name.partition(":")[0], test.expression, test.expanded) for test in result.tests if not test.passed]
-    said += [(item.name, item.expected, item.actual) for item in result.hidden if not item.passed]
-    seen = {name for name, expected, got in said if _has_no_value(got) and not _has_no_value(expected)}
+def used_without_value(step: Step, result: StepResult, about: Mapping[str, Sequence[str]]) -> Iterator[Diagnosis]:
+    """That some function used such a variable: by what it gave. `about`: the functions of each test."""
+    said = [(about.get(one.name, ()), one.expression, one.expanded) for one in result.tests if not one.passed]
+    said += [((one.name,), one.expected, one.actual) for one in result.hidden if not one.passed]
+    seen = {name for names, right, got in said if _has_no_value(got) and not _has_no_value(right) for name in names}
     names = [name for name in step.functions if name in seen]
-    warned = _warned(step, result.build_log)
-    hint = f"Give {warned} a value where it is declared." if warned else _OF_GLM
     if names:
+        warned = _warned(step, result.build_log)
         title = f"In {join_and(names)} a variable is used that was given no value: numbers like -1.7e+38 come of that."
-        yield Diagnosis("finding", "used-without-value", title, hint=hint, seen_in=names)
-    elif warned:
+        hint = f"Give {warned} a value where it is declared." if warned else _OF_GLM
+        yield Diagnosis("finding", _WITHOUT_VALUE, title, hint=hint, seen_in=names)
+
+
+def warned_of(step: Step, result: StepResult) -> Iterator[Diagnosis]:
+    """That the compiler warns of such a variable. It may err, so what is seen of the step comes before it."""
+    warned = _warned(step, result.build_log)
+    if warned:
         title = f"{warned} may be used before it was given a value, as the compiler warns."
-        yield Diagnosis("finding", "used-without-value", title, hint=hint)
+        yield Diagnosis("finding", _WITHOUT_VALUE, title, hint="Give it a value where it is declared.")
 
 
 _MAX_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before
@@ -254,8 +255,9 @@ class Diagnostician:
         found = list(transformations(self.kit, self.step, open_, pictures))
         told = {name for one in found for name in one.seen_in}
         rest = {name: picture for name, picture in open_.items() if name not in told}
-        first = used_without_value(self.step, result)
-        return [*first, *named, *found, *findings(self.kit, self.step, rest)]
+        first = list(used_without_value(self.step, result, self.kit.tests.get(self.step.id, {})))
+        later = [] if first else warned_of(self.step, result)
+        return [*first, *named, *found, *later, *findings(self.kit, self.step, rest)]
 
     def _mistakes(self, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
         """Known mistakes, and the pictures that they spoil."""

@@ -48,8 +48,9 @@ def _started(submission: Submission, stubs: dict[Step, str]) -> dict[Step, bytes
 
 def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> Started:
     """What each has begun, by name; who has begun nothing is named on stderr."""
-    entries = sorted(list_entries(folder, left_out).entries, key=lambda entry: name_order(entry.label))
+    entries = list_entries(folder, left_out).entries
     names = name_entries([entry.label for entry in entries], {})
+    entries.sort(key=lambda entry: name_order(entry.label))
     found: Started = {}
     for entry in entries:
         try:

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
@@ -41,7 +42,7 @@ def _works(sandbox: Sandbox) -> str:
 def _try(make: Callable[[], Sandbox]) -> tuple[Sandbox | None, str]:
     try:
         sandbox = make()
-    except (GraderFault, OSError) as error:
+    except (GraderFault, OSError, subprocess.TimeoutExpired) as error:
         return None, str(error)
     reason = _works(sandbox)
     return (None, reason) if reason else (sandbox, "")

@@ -17,6 +17,11 @@ _FOLDER = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_DIR
 _NOT_READ, _NOT_FOLLOWED = "cannot be read", "is a link and was not followed"
 
 
+def _leads_out(root: Path, path: tuple[str, ...]) -> bool:
+    """Whether a link leads out of the submission: what is inside is read where it lies."""
+    return not Path(os.path.realpath(root.joinpath(*path))).is_relative_to(os.path.realpath(root))
+
+
 def what_is(mode: int) -> str:
     """What somebody gave in place of a file."""
     names: dict[Callable[[int], bool], str] = {
@@ -86,7 +91,7 @@ class FolderReader:
                 yield Entry(path, partial(_read, folder, name))
             else:
                 yield Entry(path, not_a_file(what_is(mode)))
-            if stat.S_ISLNK(mode):
+            if stat.S_ISLNK(mode) and _leads_out(self._root, path):
                 self.closed[path] = _NOT_FOLLOWED
             if stat.S_ISDIR(mode) and not is_out_of_sight(path):
                 yield from self._into(folder, name, path)
@@ -147,7 +152,8 @@ class PlainFolderReader:
         for child in self._children(folder):
             path = (*parts, child.name)
             if _is_link(child):
-                self.closed[path] = _NOT_FOLLOWED
+                if _leads_out(self._root, path):
+                    self.closed[path] = _NOT_FOLLOWED
                 yield Entry(path, not_a_file("a link"))
             elif child.is_file():
                 yield Entry(path, partial(_read_by_path, Path(child.path)))
