@@ -157,10 +157,17 @@ def test_a_link_to_another_submission_earns_nothing(tmp_path: Path, capsys: pyte
         assert _points(folder) == {"alice": 9, "file": 0, "inside": 0, "mallory": 0, "stored": 7}
         assert _document(folder)["unreadable"] == ["mallory"]
         told = capsys.readouterr().out
-        assert "mallory: It is a link to another submission of the class, and no submission counts twice." in told
-        assert "mallory leads to the files of alice. Put what was handed in in place of the link; of a team," in told
-    assert "mallory leads to the files of alice." in page.read_text()
-    assert "mallory leads to the files of alice." in {row["submission"]: row["note"] for row in _table(out)}["mallory"]
+        assert (
+            "mallory: It is a link to the files of another entry of the class, and no submission counts twice." in told
+        )
+        assert (
+            "mallory leads to the same files as alice. Put what was handed in in place of the link; for a team," in told
+        )
+    assert "mallory leads to the same files as alice." in page.read_text()
+    assert (
+        "mallory leads to the same files as alice."
+        in {row["submission"]: row["note"] for row in _table(out)}["mallory"]
+    )
     assert "alice" not in (out / "submissions" / "mallory" / "results.json").read_text()  # her student reads that
 
 

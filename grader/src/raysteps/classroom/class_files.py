@@ -137,7 +137,7 @@ def _row(one: GradedSubmission, student: Student, steps: list[str]) -> list[Cell
         one.submitted_at,
         *((late.days, late.percent, late.words) if late is not None else (None, None, "")),
         one.before.points if one.before is not None else None,
-        *(one.fault, " ".join(filter(None, (one.note, *one.not_taken)))),
+        *(one.fault, " ".join(one.why_unread)),
         *_by_hand(one),
     ]
 

@@ -167,7 +167,7 @@ class LoadedEntry:
 
 NOTHING_TAKEN = "Nothing was taken from this submission: it "  # before why
 # Its student need not know whose; the note to the instructor says it.
-ANOTHERS = "is a link to another submission of the class, and no submission counts twice"
+ANOTHERS = "is a link to the files of another entry of the class, and no submission counts twice"
 
 
 def load_entry(name: str, entry: Entry, steps: list[Step]) -> LoadedEntry:

@@ -162,8 +162,8 @@ def _leads_to(entry: Entry) -> str:
     more = len(entry.leads_to) - _MAX_NAMED
     others = [*entry.leads_to[:_MAX_NAMED], *([f"{more} more"] if more > 0 else [])]
     return (
-        f"{entry.label} leads to the files of {join_and(others)}. Put what was handed in in place of the link; of a "
-        'team, name one submission for all in the roster\'s column "submission" and delete the link.'
+        f"{entry.label} leads to the same files as {join_and(others)}. Put what was handed in in place of the link; "
+        'for a team, name one submission for all in the roster\'s column "submission" and delete the link.'
     )
 
 

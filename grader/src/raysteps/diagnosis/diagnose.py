@@ -2,104 +2,26 @@
 
 import re
 import struct
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
-from raysteps.common.documents import read_text
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants
-from raysteps.diagnosis.evidence import Evidence, Mask, Picture, Questions, differing, listen, questions_of
+from raysteps.course.stubs import placed_tokens
+from raysteps.diagnosis.evidence import Evidence, Picture, Questions, differing, listen, questions_of
 from raysteps.diagnosis.matching import match, name_mistakes, spoils
 from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
-from raysteps.diagnosis.pixel_regions import object_map, place_of, render_text, size_of, without_highlights
+from raysteps.diagnosis.pixel_regions import Terms, findings
 from raysteps.diagnosis.transforms import BEFORE, Transformed, in_words, transformation_of
 from raysteps.images.compare import Pixels
-from raysteps.images.render import at_step, reference_picture
+from raysteps.images.render import reference_picture
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker import Ask
 from raysteps.results.model import Diagnosis, StepResult
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
-# What can be said of a wrong picture that no known mistake explains: first which part of the light the wrong pixels
-# have in common, by the masks where pictures of neighbouring steps differ.
-
-_WITHIN = 0.9  # of the wrong pixels lie in the mask
-_FILLED = 0.25  # of the mask is wrong
-_LARGEST = 0.7  # of the picture: a mask that says something
-
-
-@dataclass(frozen=True)
-class Term:
-    """`where` ends "the wrong pixels lie ..."."""
-
-    where: str
-    hint: str
-
-
-_HIGHLIGHTS = Term("where there are highlights", "Look at the part of the light that mirrors towards the eye.")
-_UNLIT = Term("where no light falls on the surface", "What does a surface get from a light that is behind it?")
-_SHADOWS = Term("where there is shadow", "Look at what counts as being in the way of the light, and what does not.")
-_MIRRORS = Term("where something is mirrored", "Look at the bounced ray: where it starts, where it goes, when it ends.")
-_BRIGHT = Term("where the light is too bright for a byte", "What becomes of colours that are above 1?")
-_GLASS = Term("where one looks through glass", "Look at the ray that goes through: where it starts and how it bends.")
-
-
-class Terms:
-    """Of one picture."""
-
-    def __init__(self, kit: BuiltKit, step: int, picture: Picture) -> None:
-        self._kit = kit
-        self._step = step
-        self._picture = picture
-        self._scene = kit.project.root / picture.case.scene
-
-    def at_step(self, step: int) -> Pixels:
-        """The same picture with what an earlier step can do."""
-        return reference_picture(self._kit, self._scene, at_step(self._picture.case.args, step))
-
-    def _between(self, step: int) -> Mask:
-        return differing(self.at_step(step - 1), self.at_step(step))
-
-    def _highlights(self) -> Mask:
-        args = ("--step", "3", *size_of(self._picture.case.args))
-        shiny = reference_picture(self._kit, self._scene, args)
-        return differing(shiny, render_text(self._kit, without_highlights(read_text(self._scene)), args))
-
-    def _unlit(self) -> Mask:
-        mask: Mask = self.at_step(3).max(axis=2) <= 2
-        return mask
-
-    def _bright(self) -> Mask:
-        mask: Mask = np.asarray(self.at_step(6).max(axis=2) == 255)
-        return mask
-
-    def _masks(self) -> Iterator[tuple[int, Term, Callable[[], Mask]]]:
-        yield 8, _GLASS, lambda: self._between(8)
-        yield 7, _BRIGHT, self._bright
-        yield 5, _MIRRORS, lambda: self._between(5)
-        yield 4, _SHADOWS, lambda: self._between(4)
-        yield 3, _UNLIT, self._unlit
-        yield 3, _HIGHLIGHTS, self._highlights
-
-    def found(self) -> list[Term]:
-        """What the step itself adds to the light, where that holds nearly all wrong pixels."""
-        wrong = self._picture.wrong
-        terms = []
-        for step, term, make in self._masks():
-            if self._step != step:
-                continue
-            mask = make()
-            within = int((wrong & mask).sum())
-            if within >= _WITHIN * wrong.sum() and within >= _FILLED * mask.sum() and mask.mean() <= _LARGEST:
-                terms.append(term)
-        return terms
-
-
 _MAX = 2
-_NEARLY_ALL = 0.9  # of the picture: where it is wrong says nothing
 
 
 def _before(kit: BuiltKit, step: Step, picture: Picture) -> Mapping[str, Pixels]:
@@ -153,17 +75,6 @@ def transformations(
         yield replace(found_one, cause="") if has_another_cause else found_one
 
 
-def findings(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iterator[Diagnosis]:
-    """Where the pictures are wrong; those with the fewest wrong pixels say most."""
-    telling = sorted(pictures.items(), key=lambda item: float(item[1].wrong.mean()))
-    for name, picture in telling[:_MAX]:
-        terms = Terms(kit, step.index, picture).found() if picture.wrong.mean() < _NEARLY_ALL else []
-        objects = object_map(kit, kit.project.root / picture.case.scene, picture.case.args)
-        sentence = place_of(picture, objects, [term.where for term in terms[:2]])
-        hint = terms[0].hint if terms else ""
-        yield Diagnosis("finding", "where-it-is-wrong", sentence, hint=hint, seen_in=[name])
-
-
 # A variable that was given no value. GCC fills it with bytes that show (RAYSTEPS_STUDENTS_OPTIONS in
 # cmake/compiler.cmake): as a float that is a number which nobody means, and what is added to it does not change it.
 
@@ -187,27 +98,101 @@ _WARNED = re.compile(
     r"'(?!std::)(?:[\w{}]{1,80}(?:::|\.(?!std::))){0,9}(?P<name>[A-Za-z_]\w{0,80})' "
     r"(?:(?:is|may be) (?:used )?uninitialized|was (?P<declared>declared) here)",
 )
+# What the source shows: `bool found;`, at the beginning of a statement. An object of a class begins as the class says.
+_BUILT_IN = {"bool", "char", "short", "int", "long", "unsigned", "signed", "float", "double"}
+_PLAIN = _BUILT_IN | {"Color", "mat3", "mat4", "size_t", "ptrdiff_t"}
+_PLAIN |= {f"{kind}vec{size}" for kind in ("", "b", "d", "i", "u") for size in (2, 3, 4)}
+_PLAIN |= {f"{sign}int{size}_t" for sign in ("", "u") for size in (8, 16, 32, 64)}
+_INSIDE = [":", ":"]
+_IS_NAME = re.compile(r"[A-Za-z_]\w*")
+
+
+@dataclass(frozen=True)
+class Unset:
+    """A variable that is declared without a value. `function`: the outermost that it is in, as the source calls it."""
+
+    name: str
+    place: str
+    function: str = ""
+
+    def __str__(self) -> str:
+        return f"`{self.name}` ({self.place})"
+
+
+def _declared(statement: list[str]) -> list[str]:
+    """The names in the words of a statement `bool a, b`; none where it is another, or one of them has a value."""
+    at = 0
+    while statement[at + 1 : at + 3] == _INSIDE:
+        at += 3
+    if at >= len(statement) or statement[at] not in _PLAIN:
+        return []
+    while at + 1 < len(statement) and {statement[at], statement[at + 1]} <= _BUILT_IN:  # unsigned long
+        at += 1
+    names, signs = statement[at + 1 :: 2], statement[at + 2 :: 2]
+    return [*names] if set(signs) <= {","} and all(map(_IS_NAME.fullmatch, names)) else []
+
+
+def declared_without_value(source: str, file: str) -> list[Unset]:
+    """In the functions of a source. What lies in a class or outside of all is 0, or set where an object is made."""
+    source = source.replace("\r\n", "\n")
+    found, statement, scopes = [], list[str](), list[str]()
+    line, seen = 1, 0  # where the statement begins
+    for text, start in placed_tokens(source):
+        if not statement:
+            line, seen = line + source.count("\n", seen, start), start
+        if text not in (";", "{", "}"):
+            statement.append(text)
+            continue
+        if text == ";" and scopes and scopes[-1]:
+            function = next(filter(None, scopes))
+            found += [Unset(name, f"{file}:{line}", function) for name in _declared(statement)]
+        if text == "{":
+            scopes.append(_scope(statement, scopes))
+        elif text == "}" and scopes:
+            scopes.pop()
+        statement = []
+    return found
+
+
+def _scope(head: list[str], scopes: Sequence[str]) -> str:
+    """What a brace after these words begins: the name of a function, or nothing for a class or namespace."""
+    if set(head) & {"struct", "class", "union", "enum", "namespace"} and ")" not in head:
+        return ""
+    if "(" not in head or (scopes and scopes[-1]):
+        return scopes[-1] if scopes else ""
+    end = head.index("(")
+    begin = end - 1
+    while begin >= 3 and head[begin - 2 : begin] == _INSIDE:
+        begin -= 3
+    return "".join(head[max(begin, 0) : end])
+
+
 _WITHOUT_VALUE = "used-without-value"
 _OF_GLM = "Look for a declaration without a value: `glm::vec3 sum;` holds anything, `glm::vec3 sum(0.0F);` begins at 0."
+_MOST_NAMED = 3
 
 
-def _warned(step: Step, log: str) -> str:
-    """The variable and its place, where it is declared if that is told; or nothing."""
+def _warned(step: Step, log: str) -> Unset | None:
+    """The variable and its place, where it is declared if that is told."""
     found = [one for one in _WARNED.finditer(log) if one["file"] in step.files]
     one = next((one for one in found if one["declared"]), found[0] if found else None)
-    return "" if one is None else f"`{one['name']}` ({one['file']}:{one['line']})"
+    return None if one is None else Unset(one["name"], f"{one['file']}:{one['line']}")
 
 
-def used_without_value(step: Step, result: StepResult, about: Mapping[str, Sequence[str]]) -> Iterator[Diagnosis]:
-    """That some function used such a variable: by what it gave. `about`: the functions of each test."""
+def used_without_value(
+    step: Step, result: StepResult, about: Mapping[str, Sequence[str]], unset: Sequence[Unset]
+) -> Iterator[Diagnosis]:
+    """That some function used such a variable: by what it gave. `about`: the functions of each test; `unset`: what may
+    be meant."""
     said = [(about.get(one.name, ()), one.expression, one.expanded) for one in result.tests if not one.passed]
     said += [((one.name,), one.expected, one.actual) for one in result.hidden if not one.passed]
     seen = {name for names, right, got in said if _has_no_value(got) and not _has_no_value(right) for name in names}
     names = [name for name in step.functions if name in seen]
     if names:
-        warned = _warned(step, result.build_log)
+        meant = [*filter(None, [_warned(step, result.build_log)])] or unset[:_MOST_NAMED]
         title = f"In {join_and(names)} a variable is used that was given no value: numbers like -1.7e+38 come of that."
-        hint = f"Give {warned} a value where it is declared." if warned else _OF_GLM
+        where = f"where {'they are' if len(meant) > 1 else 'it is'} declared"
+        hint = f"Give {join_and(list(map(str, meant)))} a value {where}." if meant else _OF_GLM
         yield Diagnosis("finding", _WITHOUT_VALUE, title, hint=hint, seen_in=names)
 
 
@@ -217,6 +202,17 @@ def warned_of(step: Step, result: StepResult) -> Iterator[Diagnosis]:
     if warned:
         title = f"{warned} may be used before it was given a value, as the compiler warns."
         yield Diagnosis("finding", _WITHOUT_VALUE, title, hint="Give it a value where it is declared.")
+
+
+def asked_about(unset: Sequence[Unset]) -> Iterator[Diagnosis]:
+    """Whether such variables are set later, which nobody can see from outside: a bool is right half of the time."""
+    if unset:
+        more = len(unset) - _MOST_NAMED
+        named = join_and([*map(str, unset[:_MOST_NAMED]), *([f"{more} more"] if more > 0 else [])])
+        is_one = len(unset) == 1
+        title = f"{named} {'is' if is_one else 'are'} declared without a value."
+        hint = f"Is {'it' if is_one else 'each'} set on every way to where it is read?"
+        yield Diagnosis("finding", _WITHOUT_VALUE, title, hint=hint)
 
 
 _MAX_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before
@@ -238,6 +234,7 @@ class Diagnostician:
         mine: Mapping[str, Pixels],
         unfinished: Collection[str],
         spoilt_functions: Collection[str] = (),
+        source: str = "",
     ) -> list[Diagnosis]:
         """The likeliest first. `mine`: the visible pictures that came out; `unfinished`: functions that are stubs;
         `spoilt_functions`: those that are better than they look, since they call one that is wrong."""
@@ -255,9 +252,11 @@ class Diagnostician:
         found = list(transformations(self.kit, self.step, open_, pictures))
         told = {name for one in found for name in one.seen_in}
         rest = {name: picture for name, picture in open_.items() if name not in told}
-        first = list(used_without_value(self.step, result, self.kit.tests.get(self.step.id, {})))
-        later = [] if first else warned_of(self.step, result)
-        return [*first, *named, *found, *later, *findings(self.kit, self.step, rest)]
+        unset = [one for one in declared_without_value(source, self.step.file) if one.function not in passed]
+        first = list(used_without_value(self.step, result, self.kit.tests.get(self.step.id, {}), unset))
+        warned = [] if first else list(warned_of(self.step, result))
+        asked = [] if first or warned else asked_about(unset)
+        return [*first, *named, *found, *warned, *findings(self.kit, self.step, rest), *asked]
 
     def _mistakes(self, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
         """Known mistakes, and the pictures that they spoil."""

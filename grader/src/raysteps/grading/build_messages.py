@@ -208,14 +208,15 @@ def forbidden_message(step: Step, names: tuple[str, ...], owners: dict[str, tupl
     for name in names:
         if "t_stats" in name:
             return "It does not build: it reaches for the counters of the grader, which are none of its business."
-        other, shown = owners.get(name, (step, ""))
+        other, _ = owners.get(name, (step, ""))
         if other.index > step.index:
             return f"It does not build: it calls a function of step {other.id}, which comes later."
         if other.index < step.index:
-            function = shown.partition("(")[0].removeprefix("raysteps::")
+            mine = [owners[one][1] for one in names if one in owners and owners[one][0] == other]
+            functions = join_and([one.partition("(")[0].removeprefix("raysteps::") for one in mine])
             return (
-                f"It does not build: step {step.id} may not call {function} of step {other.id}, which does what step "
-                f"{step.id} is about. Write it in {step.file} itself."
+                f"It does not build: step {step.id} may not call {functions} of step {other.id}, which "
+                f"{'do' if len(mine) > 1 else 'does'} what step {step.id} is about. Write it in {step.file} itself."
             )
     return "It does not build: it calls a function of the kit that is not for the steps."
 

@@ -324,7 +324,8 @@ class HiddenStepGrader(StepGrader):
             return
         doctor = Diagnostician(self._work.kit, self.step, self._plan, self._ask, self._work.say)
         try:
-            found = doctor.diagnose(self._result, self._gallery.made, self._unfinished, self._spoilt)
+            source = self._work.source(self.step) or ""
+            found = doctor.diagnose(self._result, self._gallery.made, self._unfinished, self._spoilt, source)
             self._result.diagnoses = found
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
             self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
