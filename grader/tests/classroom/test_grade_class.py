@@ -136,6 +136,18 @@ def test_what_goes_wrong_with_one_stops_none(tmp_path: Path, capsys: pytest.Capt
     assert "7 of 7" in printed.err
 
 
+def test_variables_without_a_value_are_a_common_mistake(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Whatever function they are in."""
+    inbox, out = tmp_path / "in", tmp_path / "out"
+    for name, function in {"ann": "shade", "bob": "mirror"}.items():
+        write_entry(inbox, name, f"// points 3\n// unset {function}\n")
+    write_entry(inbox, "cem", "// points 9\n")
+    assert grade_class(inbox, "--out", out) == 0
+    (found,) = _document(out)["mistakes"]
+    assert (found["title"], found["submissions"]) == ("a variable is used that was given no value", 2)
+    assert "a variable is used that was given no value" in capsys.readouterr().out
+
+
 def test_a_link_to_another_submission_earns_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Links that lead elsewhere are for instructors."""
     inbox, out, page = tmp_path / "in", tmp_path / "out", tmp_path / "out" / "class.html"

@@ -208,7 +208,7 @@ def test_a_warning_does_not_hide_a_known_mistake(
     assert "`count`" in "".join(found.title for found in result.diagnoses)
     kinds = [(found.kind, found.id) for found in result.diagnoses]
     assert kinds[0][0] == "mistake", kinds
-    assert ("finding", "used-without-value") in kinds[1:]
+    assert ("finding", "perhaps-without-value") in kinds[1:]
 
 
 def test_a_bool_is_told_where_its_function_is_wrong(
@@ -224,6 +224,6 @@ def test_a_bool_is_told_where_its_function_is_wrong(
         "bool is_right;\n    is_right = true;\n    return (is_right ? 1.0F : 0.0F) * direction - 2.0F",
     )
     result = _graded(kit, solved, make_submission, tmp_path / "out", behind, right)
-    (told,) = (found.title for found in result.diagnoses if found.id == "used-without-value")
+    (told,) = (found.title for found in result.diagnoses if found.id == "perhaps-without-value")
     assert told.startswith("`is_behind` (phong_shading.cpp:")
     assert "is_right" not in told

@@ -1,8 +1,8 @@
 """A grader that only reads what it is told in the sources of step 01. Its workers import this and no command line.
 
-`// points 7` gives points, `// hidden WORD` fails a hidden case of that input, `// wait 0.5` takes time, `// die`,
-`// die once`, `// fault`, `// oops` go wrong, `// program` starts a program that never ends, `// hang` never ends
-itself."""
+`// points 7` gives points, `// hidden WORD` fails a hidden case of that input, `// unset NAME` uses a variable without
+a value in that function, `// wait 0.5` takes time, `// die`, `// die once`, `// fault`, `// oops` go wrong,
+`// program` starts a program that never ends, `// hang` never ends itself."""
 
 import os
 import re
@@ -17,7 +17,16 @@ from raysteps.classroom.jobs import ProgressCallback
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
-from raysteps.results.model import HiddenResult, ImageResult, Results, Settings, StepResult, Timing
+from raysteps.results.model import (
+    USED_WITHOUT_VALUE,
+    Diagnosis,
+    HiddenResult,
+    ImageResult,
+    Results,
+    Settings,
+    StepResult,
+    Timing,
+)
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
@@ -89,6 +98,10 @@ class FakeGrader:
                 result.hidden = [
                     HiddenResult("camera", "function", 0.0, message="is wrong", given=word, outcome="wrong")
                     for word in re.findall(r"// hidden (\w+)", source)
+                ]
+                result.diagnoses = [
+                    Diagnosis("finding", USED_WITHOUT_VALUE, f"In {name} there is one.", seen_in=[name])
+                    for name in re.findall(r"// unset (\w+)", source)
                 ]
                 (out / mine).parent.mkdir(parents=True)
                 (out / mine).write_bytes(source.encode())

@@ -33,15 +33,17 @@ from raysteps.results.class_model import (
     StepPoints,
     Student,
 )
-from raysteps.results.model import HandIn, Settings, StepResult
+from raysteps.results.model import USED_WITHOUT_VALUE, HandIn, Settings, StepResult
 from raysteps.results.store import stored_results
 
 # How one submission stands.
 
 
 def _mistakes(step: StepResult) -> list[str]:
-    """Titles of the known mistakes in a step of a result."""
-    return sorted({found.title for found in step.diagnoses if found.kind == "mistake"})
+    """Titles of the known mistakes in a step of a result, and of the one that every step can have."""
+    titles = {found.title for found in step.diagnoses if found.kind == "mistake"}
+    unset = {"a variable is used that was given no value" for one in step.diagnoses if one.id == USED_WITHOUT_VALUE}
+    return sorted(titles | unset)
 
 
 def _not_taken(status: str, steps: Sequence[StepResult]) -> list[str]:

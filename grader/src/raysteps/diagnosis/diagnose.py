@@ -18,7 +18,7 @@ from raysteps.images.compare import Pixels
 from raysteps.images.render import reference_picture
 from raysteps.judge.plan import Plan
 from raysteps.judge.worker import Ask
-from raysteps.results.model import Diagnosis, StepResult
+from raysteps.results.model import USED_WITHOUT_VALUE, Diagnosis, StepResult
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
 
 _MAX = 2
@@ -167,7 +167,7 @@ def _scope(head: list[str], scopes: Sequence[str]) -> str:
     return "".join(head[max(begin, 0) : end])
 
 
-_WITHOUT_VALUE = "used-without-value"
+_PERHAPS = "perhaps-without-value"
 _OF_GLM = "Look for a declaration without a value: `glm::vec3 sum;` holds anything, `glm::vec3 sum(0.0F);` begins at 0."
 _MOST_NAMED = 3
 
@@ -193,7 +193,7 @@ def used_without_value(
         title = f"In {join_and(names)} a variable is used that was given no value: numbers like -1.7e+38 come of that."
         where = f"where {'they are' if len(meant) > 1 else 'it is'} declared"
         hint = f"Give {join_and(list(map(str, meant)))} a value {where}." if meant else _OF_GLM
-        yield Diagnosis("finding", _WITHOUT_VALUE, title, hint=hint, seen_in=names)
+        yield Diagnosis("finding", USED_WITHOUT_VALUE, title, hint=hint, seen_in=names)
 
 
 def warned_of(step: Step, result: StepResult) -> Iterator[Diagnosis]:
@@ -201,7 +201,7 @@ def warned_of(step: Step, result: StepResult) -> Iterator[Diagnosis]:
     warned = _warned(step, result.build_log)
     if warned:
         title = f"{warned} may be used before it was given a value, as the compiler warns."
-        yield Diagnosis("finding", _WITHOUT_VALUE, title, hint="Give it a value where it is declared.")
+        yield Diagnosis("finding", _PERHAPS, title, hint="Give it a value where it is declared.")
 
 
 def asked_about(unset: Sequence[Unset]) -> Iterator[Diagnosis]:
@@ -212,7 +212,7 @@ def asked_about(unset: Sequence[Unset]) -> Iterator[Diagnosis]:
         is_one = len(unset) == 1
         title = f"{named} {'is' if is_one else 'are'} declared without a value."
         hint = f"Is {'it' if is_one else 'each'} set on every way to where it is read?"
-        yield Diagnosis("finding", _WITHOUT_VALUE, title, hint=hint)
+        yield Diagnosis("finding", _PERHAPS, title, hint=hint)
 
 
 _MAX_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before

@@ -211,6 +211,9 @@ class HiddenResult:
         return self.share >= 1
 
 
+USED_WITHOUT_VALUE = "used-without-value"  # the id of a finding: a function uses a variable that was never set
+
+
 @dataclass
 class Diagnosis:
     """What explains a wrong answer or picture: a known mistake, a picture that was turned or recoloured, or where it is
