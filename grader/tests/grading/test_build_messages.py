@@ -223,5 +223,7 @@ def test_a_step_that_reaches_for_what_is_not_its_own(steps: list[Step]) -> None:
         "a function of step 06-octree, which comes later."
     )
     assert "09-bvh may not call split of step 06-octree" in forbidden_message(bvh, tuple(owners), owners)
+    owners["_ZN8raysteps4joinE"] = (octree, "raysteps::join(int)")
+    assert "may not call split and join of step 06-octree, which do" in forbidden_message(bvh, tuple(owners), owners)
     assert "counters" in forbidden_message(shadows, ("_ZN8raysteps7t_statsE",), owners)
     assert "not for the steps" in forbidden_message(shadows, ("_ZN5Catch4failE",), owners)
