@@ -254,9 +254,8 @@ class Diagnostician:
         rest = {name: picture for name, picture in open_.items() if name not in told}
         unset = [one for one in declared_without_value(source, self.step.file) if one.function not in passed]
         first = list(used_without_value(self.step, result, self.kit.tests.get(self.step.id, {}), unset))
-        warned = [] if first else list(warned_of(self.step, result))
-        asked = [] if first or warned else asked_about(unset)
-        return [*first, *named, *found, *warned, *findings(self.kit, self.step, rest), *asked]
+        perhaps = [] if first else list(warned_of(self.step, result)) or list(asked_about(unset))
+        return [*first, *named, *found, *perhaps, *findings(self.kit, self.step, rest)]
 
     def _mistakes(self, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
         """Known mistakes, and the pictures that they spoil."""
