@@ -94,18 +94,23 @@ def test_only_functions_of_earlier_steps_are_barred(project: Project, tmp_path: 
     for step in ("06-octree", "09-bvh"):
         (copy.steps / step).mkdir(parents=True)
         shutil.copy(project.steps / step / "step.toml", copy.steps / step)
-    assert read_manifests(copy)[1].barred == ("build_octree", "closest_hit_in_octree", "occluded_in_octree")
+    assert read_manifests(copy)[1].barred_functions == {"build_octree", "closest_hit_in_octree", "occluded_in_octree"}
     path = copy.steps / "09-bvh" / "step.toml"
     good = path.read_text("utf-8")
     for said, why in {
-        '["build_octre"]': "'build_octre' is no function of a step before it; did you mean build_octree",
-        '["build_bvh"]': "'build_bvh' is no function of a step before it",
-        '"split"': "expected a list of names of functions, found 'split'",
-        "[6]": r"expected a list of names of functions, found \[6\]",
+        '{ "06-octree" = ["build_octre"] }': "'build_octre' is no function of 06-octree; did you mean build_octree",
+        '{ "06-octre" = ["build_octree"] }': "'06-octre' is no step before it; did you mean 06-octree",
+        '{ "09-bvh" = ["build_bvh"] }': "'09-bvh' is no step before it",
+        '["split"]': r"expected a list of names of functions for each step, found \['split'\]",
+        '{ "06-octree" = "split" }': "expected a list of names of functions for each step, found {'06-octree': 'split'}",
     }.items():
         path.write_text(re.sub(r"^barred = .*", f"barred = {said}", good, flags=re.MULTILINE), "utf-8")
         with pytest.raises(GraderFault, match=f"step.toml: .*barred: {why}"):
             read_manifests(copy)
+    path.write_text(good, "utf-8")
+    shutil.rmtree(copy.steps / "06-octree")
+    (bvh,) = read_manifests(copy)
+    assert bvh.barred_functions, "a course may have no octree"
 
 
 def test_a_bad_manifest_is_the_kits_fault(project: Project) -> None:

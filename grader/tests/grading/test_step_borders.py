@@ -69,7 +69,7 @@ def test_what_does_the_work_of_a_step_elsewhere_is_out_of_its_reach(
 def test_a_step_may_ask_for_what_no_manifest_bars(kit: BuiltKit) -> None:
     octree, bvh = kit.steps[5], kit.steps[8]
     barred = kit.functions(octree).keys() - kit.allowed(bvh)
-    assert barred == kit.linker_names(octree, bvh.barred)
+    assert barred == kit.linker_names(octree, bvh.barred_functions)
     assert len(barred) == len(bvh.barred) > 0
     assert all(name not in (kit.folder / "steps" / "09.dynamic").read_text("utf-8") for name in barred)
     for step in kit.steps[5:8]:

@@ -61,7 +61,7 @@ class Step:
     more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
     about: str = ""  # one or two sentences for the gallery and the finale, the title where there are none
     part: int = 1  # of which course it is
-    barred: tuple[str, ...] = ()  # functions of earlier steps that do what it is about, and that it may not call
+    barred: tuple[tuple[str, str], ...] = ()  # earlier steps and their functions that it may not call: they do its work
     left_out: bool = False  # built, because the framework calls it, but no part of this course
 
     @property
@@ -76,6 +76,10 @@ class Step:
         """Of what all functions are worth; 0 for a function that is none of them."""
         weights = dict(zip(self.functions, self.function_weights, strict=True))
         return weights.get(function, 0.0) / sum(self.function_weights)
+
+    @property
+    def barred_functions(self) -> set[str]:
+        return {function for _, function in self.barred}
 
     @property
     def is_in_part_two(self) -> bool:
@@ -130,10 +134,28 @@ def _part(value: object) -> int:
     return value
 
 
-def _barred(value: object) -> tuple[str, ...]:
-    if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
-        raise ValueError(f"barred: expected a list of names of functions, found {value!r}")
-    return tuple(value)
+def _barred(value: object) -> tuple[tuple[str, str], ...]:
+    lists = list(value.values()) if isinstance(value, dict) else [None]
+    if not all(isinstance(names, list) and all(isinstance(name, str) for name in names) for names in lists):
+        raise ValueError(f"barred: expected a list of names of functions for each step, found {value!r}")
+    return tuple((step, name) for step, names in value.items() for name in names) if isinstance(value, dict) else ()
+
+
+def _refuse_unknown(barred: Step, steps: Sequence[Step], path: Path) -> None:
+    """A step that somebody took out has no functions to bar."""
+    for place, name in barred.barred:
+        other = next((step for step in steps if step.id == place), None)
+        known = [step.id for step in steps if step.index < barred.index]
+        if other is None and place[:2] not in (step.number for step in steps):
+            continue
+        if other is None or place not in known:
+            meant = did_you_mean(place, known) or "."
+            raise GraderFault(f"{path}: barred: '{place}' is no step before it{meant} Expected the folder of one")
+        if name not in other.functions:
+            meant = did_you_mean(name, other.functions) or "."
+            raise GraderFault(
+                f"{path}: barred: '{name}' is no function of {place}{meant} Expected one of its [functions]"
+            )
 
 
 def read_step(path: Path) -> Step:
@@ -176,7 +198,7 @@ def _parse(text: str, path: Path) -> Step:
             ),
             about=" ".join(str(table.get("about", table["title"])).split()),
             part=_part(table.get("part", 1)),
-            barred=_barred(table.get("barred", [])),
+            barred=_barred(table.get("barred", {})),
             left_out=bool(table.get("left_out", False)),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -204,14 +226,7 @@ def read_manifests(project: Project) -> list[Step]:
     if twice is not None:
         raise GraderFault(f"{project.steps}: two steps have the number {twice.number}; expected one folder for each")
     for step, path in zip(steps, paths, strict=True):
-        there = [name for other in steps if other.index < step.index for name in other.functions]
-        unknown = next((name for name in step.barred if name not in there), None)
-        if unknown is not None:
-            meant = did_you_mean(unknown, there) or "."
-            raise GraderFault(
-                f"{path}: barred: '{unknown}' is no function of a step before it{meant} Expected names that stand in "
-                "[functions] of those"
-            )
+        _refuse_unknown(step, steps, path)
     return steps
 
 

@@ -266,7 +266,9 @@ class Assembly:
         link(self._description, [*library_flags(step.number), exports, copied], steps / library_name(step.number))
         write_json(steps / f"{step.number}.names.json", self._kept[step.number])
         earlier = [self._kept[other.number] for other in self._steps if other.index <= step.index]
-        allowed = self._core_names.union(*earlier).difference(*(named(step.barred, shown) for shown in earlier))
+        allowed = self._core_names.union(*earlier).difference(
+            *(named(step.barred_functions, shown) for shown in earlier)
+        )
         write_json(steps / f"{step.number}.allowed.json", sorted(allowed))
         write_bytes(steps / f"{step.number}.dynamic", dynamic_list(sorted(allowed)))
         link_placeholder(self._description, kept, self._folder / "placeholders" / library_name(step.number))
