@@ -22,10 +22,13 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("play")]
 
 
-def _stand_side_by_side(page: "Page", *rooms: str) -> bool:
-    """Each ends where the next begins, or before."""
-    boxes = [page.locator(room).bounding_box() for room in rooms]
-    return all(one and other and one["x"] + one["width"] <= other["x"] for one, other in pairwise(boxes))
+_SIDE_BY_SIDE = """rooms => rooms.map((room) => document.querySelector(room).getBoundingClientRect()).every(
+    (box, at, boxes) => box.width > 0 && (at === 0 || boxes[at - 1].right <= box.left))"""
+
+
+def _wait_until_side_by_side(page: "Page", *rooms: str) -> None:
+    """Until each ends where the next begins, or before."""
+    page.wait_for_function(_SIDE_BY_SIDE, arg=list(rooms))
 
 
 def test_a_text_to_read_stands_beside_what_is_written(page: "Page") -> None:
@@ -38,7 +41,7 @@ def test_a_text_to_read_stands_beside_what_is_written(page: "Page") -> None:
     expect(page.locator("#play-reading-text")).to_be_focused()
     assert_accessible(page)
     expect(handout).to_be_hidden()
-    assert _stand_side_by_side(page, "#play-reading", "#play-source")
+    _wait_until_side_by_side(page, "#play-reading", "#play-source")
     write(page, "// while it can be read\n")
     expect(page.locator(".cm-content")).to_have_text("// while it can be read")
     expect(text).to_be_visible()
@@ -48,7 +51,7 @@ def test_a_text_to_read_stands_beside_what_is_written(page: "Page") -> None:
     expect(link).to_be_focused()
     page.set_viewport_size({"width": 1920, "height": 1080})
     link.click()
-    assert _stand_side_by_side(page, "#play-handout", "#play-reading", "#play-source")
+    _wait_until_side_by_side(page, "#play-handout", "#play-reading", "#play-source")
     for width, height, is_modal in ((768, 1024, False), (390, 844, True)):
         page.set_viewport_size({"width": width, "height": height})
         page.wait_for_function(
@@ -141,7 +144,7 @@ def test_on_a_small_laptop_the_results_scroll_past_a_wide_editor(page: "Page") -
         expect(editor).to_be_in_viewport(ratio=1)
     page.locator("#play-texts").get_by_role("link").first.click()
     expect(page.locator("#play-reading-text")).to_be_focused()
-    assert _stand_side_by_side(page, "#play-reading", "#play-source")
+    _wait_until_side_by_side(page, "#play-reading", "#play-source")
     expect(page.locator("#play-reading")).to_be_in_viewport(ratio=1)
     expect(results).to_be_hidden()
     assert page.evaluate("document.documentElement.scrollHeight - innerHeight") <= 0
