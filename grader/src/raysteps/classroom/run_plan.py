@@ -18,7 +18,7 @@ from raysteps.classroom.roster import Matches, Student, match, read_roster
 from raysteps.common.documents import Amount
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.platform import own_command, quote_command
-from raysteps.common.text import count, join_and
+from raysteps.common.text import count, join_some
 from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import Course
@@ -159,10 +159,9 @@ _MAX_NAMED = 3
 
 
 def _leads_to(entry: Entry) -> str:
-    more = len(entry.leads_to) - _MAX_NAMED
-    others = [*entry.leads_to[:_MAX_NAMED], *([f"{more} more"] if more > 0 else [])]
+    others = join_some(entry.leads_to, _MAX_NAMED)
     return (
-        f"{entry.label} leads to the same files as {join_and(others)}. Put what was handed in in place of the link; "
+        f"{entry.label} leads to the same files as {others}. Put what was handed in in place of the link; "
         'for a team, name one submission for all in the roster\'s column "submission" and delete the link.'
     )
 

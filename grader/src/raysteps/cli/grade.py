@@ -14,7 +14,7 @@ from rich.console import Console
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
 from raysteps.common.platform import own_command, quote_command
-from raysteps.common.text import join_and
+from raysteps.common.text import join_some
 from raysteps.course.manifest import STEPS_HELP, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
@@ -82,11 +82,10 @@ def _refuse_a_class(project: Project, path: Path) -> None:
     """Of two submissions in one folder neither could be taken: the student would get nothing."""
     names = submissions_inside(path, read_steps(project))
     if names:
-        more = [f"{len(names) - _NAMED} more"] if len(names) > _NAMED else []
         one = f"{own_command()} {quote_command(['grade', str(path / names[0])])}"
         all_ = f"{own_command()} {quote_command(['grade-class', str(path), '--out', 'grades'])}"
         raise UsageError(
-            f"{path}: holds several submissions, among them {join_and([*names[:_NAMED], *more])}. "
+            f"{path}: holds several submissions, among them {join_some(names, _NAMED)}. "
             f"Grade one of them with `{one}`, or all with `{all_}`"
         )
 

@@ -8,7 +8,7 @@ from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import content_hash
-from raysteps.common.text import count, join_and
+from raysteps.common.text import count, join_and, join_some
 from raysteps.course.project import Project
 from raysteps.updater.release_list import PLACE, Release, own_files, read_release
 from raysteps.updater.source import Source, open_source
@@ -49,8 +49,7 @@ def _tell_own(console: Console, changes: Changes) -> None:
 
 def _tell_kept(console: Console, names: list[str]) -> None:
     """The student's own, by name as far as there is room."""
-    shown, more = names[:_MAX_NAMED], len(names) - _MAX_NAMED
-    words = join_and([*shown, f"{more} more"] if more > 0 else shown) if names else "there are none yet"
+    words = join_some(names, _MAX_NAMED) if names else "there are none yet"
     _say(console, f"Your own files are as they were: {words}.")
 
 

@@ -51,6 +51,12 @@ def join_and(words: Sequence[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
+def join_some(words: Sequence[str], most: int) -> str:
+    """The same of the first `most`, and how many more there are: `a, b and 3 more`."""
+    more = len(words) - most
+    return join_and([*words[:most], *([f"{more} more"] if more > 0 else [])])
+
+
 _LETTER = re.compile(r"LATIN SMALL LETTER ([A-Z]) WITH ")
 
 

@@ -5,7 +5,7 @@ import struct
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from raysteps.common.text import join_and
+from raysteps.common.text import join_and, join_some
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants
 from raysteps.course.stubs import placed_tokens
@@ -207,8 +207,7 @@ def warned_of(step: Step, result: StepResult) -> Iterator[Diagnosis]:
 def asked_about(unset: Sequence[Unset]) -> Iterator[Diagnosis]:
     """Whether such variables are set later, which nobody can see from outside: a bool is right half of the time."""
     if unset:
-        more = len(unset) - _MOST_NAMED
-        named = join_and([*map(str, unset[:_MOST_NAMED]), *([f"{more} more"] if more > 0 else [])])
+        named = join_some(list(map(str, unset)), _MOST_NAMED)
         is_one = len(unset) == 1
         title = f"{named} {'is' if is_one else 'are'} declared without a value."
         hint = f"Is {'it' if is_one else 'each'} set on every way to where it is read?"

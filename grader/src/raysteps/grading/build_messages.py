@@ -7,7 +7,7 @@ from raysteps.common.text import join_and, nearest, printable, shorten
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled
-from raysteps.toolchain.kit_artifacts import BuiltKit
+from raysteps.toolchain.kit_artifacts import BuiltKit, function_name
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
 _MAX_MORE = 3  # errors that are told in a line each, besides the first
@@ -213,7 +213,7 @@ def forbidden_message(step: Step, names: tuple[str, ...], owners: dict[str, tupl
             return f"It does not build: it calls a function of step {other.id}, which comes later."
         if other.index < step.index:
             mine = [owners[one][1] for one in names if one in owners and owners[one][0] == other]
-            functions = join_and([one.partition("(")[0].removeprefix("raysteps::") for one in mine])
+            functions = join_and(list(map(function_name, mine)))
             return (
                 f"It does not build: step {step.id} may not call {functions} of step {other.id}, which "
                 f"{'do' if len(mine) > 1 else 'does'} what step {step.id} is about. Write it in {step.file} itself."

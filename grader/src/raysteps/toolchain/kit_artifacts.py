@@ -58,9 +58,14 @@ NOTHING: Replaced = frozenset()
 _NOT_OFFERED = "raysteps_not_offered"  # see framework/remote/home.cpp
 
 
+def function_name(shown: str) -> str:
+    """As step.toml calls a function that C++ writes like this, with its arguments."""
+    return shown.partition("(")[0].removeprefix("raysteps::")
+
+
 def named(functions: Collection[str], shown: Mapping[str, str]) -> Replaced:
     """Linker names of these functions, as step.toml calls them, among those that `shown` writes as C++ does."""
-    return frozenset(name for name, text in shown.items() if text.split("(")[0].removeprefix("raysteps::") in functions)
+    return frozenset(name for name, text in shown.items() if function_name(text) in functions)
 
 
 def _but(replaced: Replaced) -> str:
