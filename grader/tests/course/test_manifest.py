@@ -33,8 +33,11 @@ def test_files_that_manifests_name_exist(project: Project) -> None:
             assert re.fullmatch(r"[a-z0-9-]+", image.name)
 
 
-@pytest.mark.parametrize("name", ["02", "2", "02-intersection"])
-def test_a_step_has_three_names(steps: list[Step], name: str) -> None:
+_TYPED = ["02", "2", "02-intersection", "02-intersection/", "steps/02-intersection", "./steps/02-intersection/x.cpp"]
+
+
+@pytest.mark.parametrize("name", [*_TYPED, ".\\steps\\02-intersection\\"])
+def test_a_step_is_named_by_its_number_or_its_folder(steps: list[Step], name: str) -> None:
     assert [step.id for step in choose(steps, [name])] == ["02-intersection"]
 
 
@@ -64,9 +67,14 @@ def test_a_range_steps_over_what_is_left_out(steps: list[Step]) -> None:
 
 @pytest.mark.parametrize(
     ("name", "words"),
-    [("4-1", "ends before it begins; expected 1-4"), ("1-19", "no step '19'"), (",", "expected steps, such as 1-4")],
+    [
+        ("4-1", "ends before it begins; expected 1-4"),
+        ("1-19", "no step '19'"),
+        (",", "expected steps, such as 1-4"),
+        ("elsewhere/02-intersection/x.cpp", "no step 'elsewhere/02-intersection/x.cpp'"),
+    ],
 )
-def test_a_wrong_range_is_refused(steps: list[Step], name: str, words: str) -> None:
+def test_what_names_no_step_is_refused(steps: list[Step], name: str, words: str) -> None:
     with pytest.raises(UsageError, match=words):
         choose(steps, [name])
 

@@ -286,12 +286,14 @@ def earlier(step: Step, steps: Sequence[Step]) -> list[Step]:
 
 
 _RANGE = re.compile(r"([0-9]{1,2})[-\u2013]([0-9]{1,2})")
+_IN_STEPS = re.compile(r"(?:\.[/\\])?(?:steps[/\\])?([^/\\]+)(?:[/\\].*)?")  # as a shell completes it
 STEPS_HELP = "such as 1-4, 01 02 or 1,3"  # what `choose` takes
 
 
 def _one(steps: list[Step], name: str, others: Sequence[Step]) -> Step:
     number = f"{int(name):02d}" if re.fullmatch(r"[0-9]{1,2}", name) else None
-    found = [step for step in (*steps, *others) if name == step.id or number == step.number]
+    path = _IN_STEPS.fullmatch(name)
+    found = [step for step in (*steps, *others) if (path and step.id == path[1]) or number == step.number]
     if found and found[0] in others:
         raise UsageError(of_another_part(steps, found[0]))
     if not found:
@@ -317,8 +319,8 @@ def _range(steps: list[Step], word: str, others: Sequence[Step]) -> list[Step]:
 
 
 def choose(steps: list[Step], names: Sequence[str], others: Sequence[Step] = ()) -> list[Step]:
-    """The steps with these names (`02`, `2`, `02-intersection`, `1-4` or `1,3`); all of them when there are no
-    names. Of the `others` it is said how a course gets them."""
+    """The steps with these names (`02`, `2`, `02-intersection`, its folder or a file there, `1-4` or `1,3`); all of
+    them when there are no names. Of the `others` it is said how a course gets them."""
     if not names:
         return steps
     words = [word for name in names for word in re.split(r"[,\s]+", name) if word]
