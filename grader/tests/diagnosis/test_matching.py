@@ -7,10 +7,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from judge_fakes import FakeWorker
 
 from raysteps.course.manifest import ImageCase
 from raysteps.course.mutants import Mutant
-from raysteps.diagnosis.evidence import Answers, Evidence, ObservedAnswers, Picture, Questions, answer_similarity
+from raysteps.diagnosis.evidence import (
+    Answers,
+    Evidence,
+    ObservedAnswers,
+    Picture,
+    Questions,
+    answer_similarity,
+    listen,
+)
 from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, pair_score
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_known, write_known
 from raysteps.images.compare import Pixels
@@ -347,3 +356,17 @@ def test_fingerprints_come_back_from_their_file(tmp_path: Path) -> None:
     (tmp_path / "03.npz").write_bytes(b"half of a file")
     assert read_known(tmp_path / "03.npz") is None
     assert read_known(tmp_path / "04.npz") is None
+
+
+@pytest.mark.parametrize("line", ["4 5 6", " ".join(["4"] * 5000)])
+def test_who_answers_as_a_known_mistake_has_its_problem(line: str) -> None:
+    """So it is judged once: long answers, too, of which only a hash is kept."""
+    questions = {"mirror": _questions()}
+    judged = listen(questions, FakeWorker(lambda *_: line), 1.0)
+    assert len(judged["mirror"]) == _AMOUNT
+    told = {number: replace(one, problem="as the mistake") for number, one in judged["mirror"].items() if number < 9}
+    heard = listen(questions, FakeWorker(lambda *_: line), 1.0, [{"mirror": told}])["mirror"]
+    assert heard == {**judged["mirror"], **told}
+    others = listen(questions, FakeWorker(lambda *_: "7 8 9"), 1.0, [{"mirror": told}])["mirror"]
+    assert {one.problem for one in others.values()}.isdisjoint({"as the mistake"})
+    assert not listen(questions, FakeWorker(lambda *_: "1 2 3"), 1.0, [{"mirror": told}])["mirror"]

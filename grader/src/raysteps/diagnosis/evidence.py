@@ -4,14 +4,15 @@ import hashlib
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TypeAlias
+from functools import cached_property, lru_cache
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.images.compare import TOLERANCE, Pixels, gaps, is_flat
+from raysteps.judge.answers import Answer
 from raysteps.judge.bvhs import BVH
 from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.hidden_tests import make_cases, reference_lines
@@ -77,7 +78,14 @@ def questions_of(kit: BuiltKit, step: Step, plan: Plan, names: Collection[str]) 
     return found
 
 
-def _said(function: Function, case: Case, right: str, reply: Reply) -> ObservedAnswers | None:
+def _kept(line: str) -> str:
+    """What is kept of an answer."""
+    return line if len(line) <= _LONGEST else "#" + hashlib.sha256(line.encode()).hexdigest()[:32]
+
+
+def _said(
+    function: Function, case: Case, right: str, reply: Reply, before: Mapping[str, ObservedAnswers]
+) -> ObservedAnswers | None:
     """None for a right answer."""
     if not reply.asked:
         return ObservedAnswers("", "", known=False)
@@ -85,11 +93,12 @@ def _said(function: Function, case: Case, right: str, reply: Reply) -> ObservedA
         return ObservedAnswers("", reply.outcome)
     if reply.line == right:
         return None
+    line = _kept(reply.line)
+    if line in before:
+        return before[line]
     problem = case.verdict(function.answer, right, reply.line).problem
     if not problem:
         return None
-    long = len(reply.line) > _LONGEST
-    line = "#" + hashlib.sha256(reply.line.encode()).hexdigest()[:32] if long else reply.line
     spread = tuple(problem.histogram.counts) if isinstance(problem, Uneven) else ()
     goes_round = isinstance(problem, Uneven) and problem.goes_round
     times = problem.times if isinstance(problem, Off) else ()
@@ -106,15 +115,28 @@ def _boxes(function: Function, line: str) -> int:
         return 0
 
 
-def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float) -> Answers:
-    """Asks a program. `seconds`: the limit of one run of its worker."""
+def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float, mistakes: Collection[Answers] = ()) -> Answers:
+    """Asks a program. `seconds`: the limit of one run of its worker. `mistakes`: what others answered to the same; who
+    answers as one of them has the same problem, and nobody has to judge that again."""
     budget = TimeBudget(seconds, len(questions))
     heard: dict[str, dict[int, ObservedAnswers]] = {}
     for name, known in questions.items():
         replies = ask_worker(ask, known.cases, budget).replies
-        said = [_said(known.function, *three) for three in zip(known.cases, known.right, replies, strict=True)]
+        before = _by_line(mistakes, name, len(known.cases))
+        asked = zip(known.cases, known.right, replies, before, strict=True)
+        said = [_said(known.function, *one) for one in asked]
         heard[name] = {number: one for number, one in enumerate(said) if one is not None}
     return heard
+
+
+def _by_line(mistakes: Collection[Answers], function: str, cases: int) -> list[dict[str, ObservedAnswers]]:
+    """The wrong answers to each case of a function."""
+    found: list[dict[str, ObservedAnswers]] = [{} for _ in range(cases)]
+    for answers in mistakes:
+        for number, one in answers.get(function, {}).items():
+            if one.line:
+                found[number][one.line] = one
+    return found
 
 
 Mask = npt.NDArray[np.bool_]
@@ -236,10 +258,15 @@ def _worth(mistake: str, mine: str) -> float:
     return _TURNED if {mistake, mine} == {"0", "1"} or _close(turned, mine) else 0.0
 
 
+@lru_cache(maxsize=1 << 12)  # one answer is compared with those of all mistakes
+def _parsed(answer: Answer[Any], line: str) -> Any:
+    return answer.parse(line)
+
+
 def _fits(function: Function, case: Case, mistake: str, mine: str) -> bool:
     """Whether the judge would call my answer right if the mistake's were the truth."""
     try:
-        expected, actual = function.answer.parse(mistake), function.answer.parse(mine)
+        expected, actual = _parsed(function.answer, mistake), _parsed(function.answer, mine)
         return not function.answer.problem(case.inputs, expected, actual)
     except (ProtocolError, ArithmeticError, ValueError):
         return False

@@ -144,6 +144,8 @@ def _no_number_said(problem: str, right_line: str, line: str) -> str:
     """The same of a whole answer, where the right one holds no such number and the problem does not tell."""
     if type(problem) is not str or "NaN" in problem or "infinite" in problem:
         return ""
+    if not any(odd in line for odd in _NONE):  # long lines have many words
+        return ""
     odd = {word.removeprefix("-") for word in line.split()} & {*_NONE} - {*right_line.replace("-", "").split()}
     return f"the answer holds a number that is {_NONE['nan' if 'nan' in odd else 'inf']}" if odd else ""
 

@@ -77,10 +77,25 @@ def read_sample(tokens: TokenReader) -> list[float] | None:
 
 def read_samples(tokens: TokenReader) -> Samples:
     """All that follow."""
-    nothing, rows = tokens.optional_rows(8, _MOST)
+    there, rows = _optional_samples(tokens)
+    return Samples(there.count(False), rows)
+
+
+def read_samples_and_first(tokens: TokenReader) -> tuple[Samples, bool]:
+    """All that follow but the last, and whether that is the first once more."""
+    there, rows = _optional_samples(tokens)
+    if not there:
+        return Samples(0, rows), False
+    same = there[0] == there[-1] and (not there[0] or bool((rows[0] == rows[-1]).all()))
+    return Samples(there[:-1].count(False), rows[:-1] if there[-1] else rows), same
+
+
+def _optional_samples(tokens: TokenReader) -> tuple[list[bool], Numbers]:
+    """Which are there, and those."""
+    there, rows = tokens.optional_rows(8, _MOST)
     if not np.isin(rows[:, 7], (0, 1)).all():
         raise ProtocolError("the answer holds another word where a flag belongs")
-    return Samples(nothing, rows)
+    return there, rows
 
 
 def words_of_samples(samples: Samples) -> str:

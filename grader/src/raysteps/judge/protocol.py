@@ -437,25 +437,23 @@ class TokenReader:
         left = len(self._words) - self._next
         return self.reals(width * min(-(-left // width), most)).reshape(-1, width)
 
-    def optional_rows(self, width: int, most: int) -> tuple[int, Numbers]:
-        """The same, with a 1 before each row, and a 0 in place of one that is not there; how many are not comes
-        first."""
+    def optional_rows(self, width: int, most: int) -> tuple[list[bool], Numbers]:
+        """The same, with a 1 before each row, and a 0 in place of one that is not there: which are, then those."""
         found: list[str] = []
-        missing = 0
+        there: list[bool] = []
         words, at = self._words, self._next
-        while at < len(words) and missing + len(found) // width < most:
+        while at < len(words) and len(there) < most:
             if words[at] not in _FLAGS:
                 return _refuse()
-            if words[at] == "0":
-                missing += 1
-                at += 1
-            else:
+            there.append(words[at] == "1")
+            if there[-1]:
                 found += words[at + 1 : at + 1 + width]
-                at += 1 + width
+                at += width
+            at += 1
         if at > len(words):
             raise ProtocolError("the answer is too short")
         self._next = at
-        return missing, _reals(found).reshape(-1, width)
+        return there, _reals(found).reshape(-1, width)
 
     def at_end(self) -> bool:
         return self._next == len(self._words)

@@ -16,6 +16,7 @@ from raysteps.judge.draws import (
     read_directions,
     read_sample,
     read_samples,
+    read_samples_and_first,
     unit_problem,
     words_of_directions,
     words_of_samples,
@@ -425,16 +426,7 @@ class _Glass:
 
 
 def _read_glass(tokens: TokenReader) -> _Glass:
-    rows: list[list[float] | None] = []
-    while not tokens.at_end() and len(rows) <= _MOST_OF_GLASS:
-        rows.append(read_sample(tokens))
-    drawn = rows[:-1]
-    there = [row for row in drawn if row is not None]
-    samples = Samples(len(drawn) - len(there), np.array(there, dtype=np.float64).reshape(-1, 8))
-    return _Glass(samples, bool(rows) and rows[0] == rows[-1])
-
-
-_MOST_OF_GLASS = 40_000
+    return _Glass(*read_samples_and_first(tokens))
 
 
 def _eta(hit: Hit) -> float:
