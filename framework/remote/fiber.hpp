@@ -25,9 +25,7 @@ public:
 
 private:
     struct State;
-    void begin();
-    void run();
-    static void enter(unsigned high, unsigned low);
+    static void enter();
 
     std::function<void()> body_;
     bool ended_ = false;
