@@ -17,10 +17,24 @@
 #include <utility>
 #include <vector>
 
+#if __has_include(<sys/single_threaded.h>)
+#include <sys/single_threaded.h>
+#define RAYSTEPS_TELLS_OF_THREADS 1
+#endif
+
 #include "core/stats.hpp"
 #include "remote/fiber.hpp"
 
 namespace raysteps::remote {
+
+/// Whether no other thread was started yet, as far as the system tells.
+[[nodiscard]] inline bool is_only_thread() {
+#ifdef RAYSTEPS_TELLS_OF_THREADS
+    return __libc_single_threaded != 0;
+#else
+    return false;
+#endif
+}
 
 enum class Kind : std::uint8_t {
     question,
@@ -119,7 +133,8 @@ private:
 
     /// A student may have threads of its own; a program asks and answers from one.
     [[nodiscard]] std::unique_lock<std::recursive_mutex> guard() {
-        return end_ == End::box ? std::unique_lock(mutex_) : std::unique_lock<std::recursive_mutex>();
+        const bool alone = end_ == End::home || is_only_thread();
+        return alone ? std::unique_lock<std::recursive_mutex>() : std::unique_lock(mutex_);
     }
     [[nodiscard]] std::size_t begin_message(Kind kind);
     void end_message(std::size_t start);
