@@ -235,7 +235,7 @@ class StudentBuild:
         if found is not None:
             library, said = found
             ran = replace(_NO_WORK, outcome=replace(_NO_WORK.outcome, stderr=said))
-            return Compiled(self._write(f"libraries/{library_name(step.number)}", library), ran)
+            return Compiled(self._write_library(step, library), ran)
         compiled = self._compile(step, source, limits)
         if self._kept is not None and compiled.binary is not None:
             said = compiled.ran.outcome.stderr + compiled.ran.outcome.stdout
@@ -283,7 +283,7 @@ class StudentBuild:
         data = ran.outputs.get("library")
         if not data:
             return Compiled(None, ran)
-        return Compiled(self._write(f"libraries/{library_name(step.number)}", data), compiled)
+        return Compiled(self._write_library(step, data), compiled)
 
     def _shown(self, raw: Path, names: list[str], limits: StepLimits) -> tuple[str, ...]:
         """Linker names of an object as C++ writes them."""
@@ -354,6 +354,10 @@ class StudentBuild:
                 write_bytes(self._folder / name / library.name, library.read_bytes())
             return self._folder / name
         return libraries[0].parent
+
+    def _write_library(self, step: Step, data: bytes) -> Path:
+        """In a folder of its own: a task gets a copy of all that is in it."""
+        return self._write(f"libraries/{step.number}/{library_name(step.number)}", data)
 
     def _write(self, name: str, data: bytes) -> Path:
         path = self._folder / name
