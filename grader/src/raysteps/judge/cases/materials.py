@@ -75,6 +75,7 @@ _FRESNEL_DIELECTRIC = Function(
     number_answer("the share", Tolerance(2e-5, 2e-4)),
     (
         Group("into the denser medium", lambda d: _fresnel(d.fine(0.05, 0.99), 1 / d.fine(1.15, 2.5))),
+        Group("nearly along the surface", lambda d: _fresnel(d.logarithmic(0.002, 0.05), 1 / d.fine(1.15, 2.5))),
         Group("out of it", lambda d: _from_dense(d, total=False)),
         Group("refraction is impossible", lambda d: _from_dense(d, total=True), exact=True),
         Group("straight on", lambda d: _fresnel(1.0, d.fine(1.15, 2.5) ** d.sign()), exact=True),
@@ -223,6 +224,13 @@ def _visible(draw: RandomSource, view: Vector, amount: int = 2048) -> Inputs:
     return {"view": Vec(view), "alpha": _alpha(draw, 0.1), **draws(draw, amount)}
 
 
+def _nearly_smooth(draw: RandomSource) -> Inputs:
+    """A slanting view that is nearly straight from above where the surface is stretched to a half sphere."""
+    alpha, tangent = _alpha(draw, 0.03, 0.1), draw.fine(0.1, 0.14)
+    cosine = 1 / math.hypot(1, tangent / alpha.value)
+    return {"view": Vec(draw.above(_UP, cosine, cosine)), "alpha": alpha, **draws(draw, 32_768)}
+
+
 _SAMPLE_VISIBLE_NORMAL = Function(
     "sample_visible_normal",
     Answer(
@@ -240,6 +248,7 @@ _SAMPLE_VISIBLE_NORMAL = Function(
         Group("a flat view", lambda d: _visible(d, d.above(_UP, 0.03, 0.2))),
         Group("from straight above", lambda d: _visible(d, _UP), exact=True),
         Group("very many normals", lambda d: _visible(d, d.above(_UP, 0.2, 0.9), 32_768)),
+        Group("nearly smooth, very many", _nearly_smooth),
     ),
 )
 
@@ -367,8 +376,11 @@ def _weight_problem(what: str, mine: Numbers, right: Numbers, steep: Mask) -> st
 def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     hit, alpha = inputs["hit"], real_of(inputs, "roughness")
     assert isinstance(hit, Hit)
-    if actual.count != whole_of(inputs, "times") or not len(actual.rows):
+    seen_from_below = dot(hit.ray_direction, hit.normal) > 0
+    if actual.count != whole_of(inputs, "times") or not (seen_from_below or len(actual.rows)):
         return ("no proper answer came",) * 4
+    if seen_from_below:
+        return ("a path goes on though the view is not above the surface" if len(actual.rows) else "",) * 4
     view, light = _local(inputs, actual.directions)
     wrong = unit_problem(actual.directions) or odd_number("a number of a sample", actual.rows)
     if wrong:
@@ -409,6 +421,7 @@ _SCATTER_METAL = Function(
         Group("nearly smooth, from above", lambda d: _rough(d, 0.8, 0.98, (0.03, 0.06))),
         Group("any angle and roughness", lambda d: _rough(d, 0.15, 0.98, (0.1, 1.0), 256)),
         Group("very many samples", lambda d: _rough(d, 0.9, 0.98, (0.03, 0.05), 16_384)),
+        Group("a view from below", lambda d: _rough(d, -0.95, -0.1, (0.1, 1.0), 16)),
     ),
 )
 
@@ -517,6 +530,13 @@ def _inside(draw: RandomSource, *, total: bool) -> Inputs:
     return _from_inside(draw, low, high, fill, Real(0.0))
 
 
+def _nearly_total(draw: RandomSource) -> Inputs:
+    """Where Fresnel's shares of the two sides differ most."""
+    fill = _glass_fill(draw)
+    least = _least_cosine(fill.index)
+    return _from_inside(draw, 1.005 * least + 0.003, 1.03 * least + 0.005, fill, Real(0.0))
+
+
 def _frosted_inside(draw: RandomSource) -> Inputs:
     """Clear glass would mirror all of it; the microfacets let through what they lean for."""
     fill = _glass_fill(draw)
@@ -542,8 +562,9 @@ _SCATTER_GLASS = Function(
     (
         Group("smooth", lambda d: _glass(d, 0.1, 0.98, Real(0.0))),
         Group("smooth, from inside", lambda d: _inside(d, total=False)),
+        Group("just before refraction is impossible", _nearly_total),
         Group("refraction is impossible", lambda d: _inside(d, total=True)),
-        Group("a little rough, from above", lambda d: _glass(d, 0.85, 0.98, _alpha(d, 0.03, 0.06))),
+        Group("a little rough, from above", lambda d: _glass(d, 0.85, 0.98, _alpha(d, 0.01, 0.06))),
         Group("rough", lambda d: _glass(d, 0.4, 0.98, _alpha(d, 0.1, 0.6), 256)),
         Group("rough, from inside", _frosted_inside),
         Group("rough, and a flat view", lambda d: _glass(d, 0.1, 0.25, _alpha(d, 0.6, 1.0), 2048)),
