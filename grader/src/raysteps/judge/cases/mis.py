@@ -35,9 +35,9 @@ def _two(pdf: float, other: float) -> Inputs:
     return {"pdf": Real(f32(pdf)), "other_pdf": Real(f32(other))}
 
 
-def _near_each_other(draw: RandomSource) -> Inputs:
+def _near_each_other(draw: RandomSource, low: float = 0.01, high: float = 100) -> Inputs:
     """So that neither weight is nearly 0."""
-    pdf = draw.logarithmic(0.01, 100)
+    pdf = draw.logarithmic(low, high)
     return _two(pdf, pdf * draw.logarithmic(0.2, 5))
 
 
@@ -47,6 +47,7 @@ _BALANCE_HEURISTIC = Function(
     (
         Group("any densities", _near_each_other),
         Group("far from each other", lambda d: _two(d.logarithmic(1e-3, 1e3), d.logarithmic(1e-3, 1e3))),
+        Group("very low ones", lambda d: _near_each_other(d, 1e-6, 1e-3)),
         Group("the same", lambda d: _two(*[d.logarithmic(0.01, 100)] * 2), exact=True),
         Group("the other way never comes", lambda d: _two(d.logarithmic(0.01, 100), 0.0), exact=True),
         Group("this way never comes", lambda d: _two(0.0, d.logarithmic(0.01, 100)), exact=True),
@@ -61,6 +62,7 @@ _POWER_HEURISTIC = Function(
         Group("any densities", _near_each_other),
         Group("far from each other", lambda d: _two(d.logarithmic(1e-3, 1e3), d.logarithmic(1e-3, 1e3))),
         Group("very high ones", lambda d: _two(*(d.fine(0.3, 1) * 10 ** d.fine(12, 15) for _ in range(2)))),
+        Group("very low ones", lambda d: _near_each_other(d, 1e-6, 1e-3)),
         Group("the same", lambda d: _two(*[d.logarithmic(0.01, 100)] * 2), exact=True),
         Group("the other way never comes", lambda d: _two(d.logarithmic(0.01, 100), 0.0), exact=True),
         Group("this way never comes", lambda d: _two(0.0, d.logarithmic(0.01, 100)), exact=True),
@@ -145,6 +147,11 @@ def _sphere(draw: RandomSource, share: float) -> Inputs:
     return {"center": Vec(center), "radius": Real(radius), "from": Vec(from_)}
 
 
+def _on_sphere(draw: RandomSource) -> Inputs:
+    center, radius = draw.simple_point(2), draw.eighths(0.5, 2)
+    return {"center": Vec(center), "radius": Real(radius), "from": Vec(add(center, draw.axis(), radius))}
+
+
 _SPHERE_PDF = Function(
     "sphere_pdf",
     _DENSITY,
@@ -153,6 +160,7 @@ _SPHERE_PDF = Function(
         Group("near the surface", lambda d: _sphere(d, d.fine(1.02, 1.3))),
         Group("small and far", lambda d: _sphere(d, d.logarithmic(30, 3000))),
         Group("from inside", lambda d: _sphere(d, d.fine(0.05, 0.95))),
+        Group("on the sphere", _on_sphere, exact=True),
     ),
 )
 
@@ -285,6 +293,35 @@ def _of_kinds(*choices: tuple[str, ...], background: bool = False) -> Callable[[
     return make
 
 
+def _very_bright(draw: RandomSource) -> Inputs:
+    """Whoever cuts bright light off makes the mean wrong."""
+    kinds = (("el", "x"), ("l", "ex"), ("", "lex"), ("s", "ex"))[draw.whole(0, 3)]
+    script = _script(draw, kinds)
+    hits = tuple(
+        replace(
+            hit,
+            emission=draw.color(100, 5000) if any(hit.emission) else _BLACK,
+            samples=DirectSamples(tuple(_bright(draw) for _ in hit.samples.samples)),
+        )
+        for hit in script.hits
+    )
+    return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+
+
+def _one_colored(draw: RandomSource) -> Inputs:
+    """Lamps that shine in one channel alone."""
+    kinds = (("ex",), ("", "ex"), ("s", "ex"), ("e", "l", "ex"))[draw.whole(0, 3)]
+    script = _script(draw, kinds)
+    hits = tuple(replace(hit, emission=_one_channel(draw) if any(hit.emission) else _BLACK) for hit in script.hits)
+    return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+
+
+def _one_channel(draw: RandomSource) -> Vector:
+    channel, light = draw.whole(0, 2), draw.color(0.5, 4.0)
+    x, y, z = (light[i] if i == channel else 0.0 for i in range(3))
+    return x, y, z
+
+
 def _plate(draw: RandomSource, exponent: float, lamps: tuple[PlateLamp, ...], low: float, high: float) -> MisHit:
     scatter = WeighedScatter(Scatter(draw.direction(), draw.color(low, high)), 0.0)
     return MisHit(2.5, draw.direction(), _BLACK, True, 0.0, DirectSamples(()), scatter, f32(exponent), lamps)
@@ -343,6 +380,16 @@ def _wall(draw: RandomSource, number: int, kind: str, low: float, high: float) -
         return hit
     direction, pdf = hit.scatter.scatter.direction, hit.scatter.pdf
     return replace(hit, scatter=WeighedScatter(Scatter(direction, draw.color(low, high)), pdf))
+
+
+def _met_after_dark_wall(draw: RandomSource) -> MisScript:
+    """A lamp that is met where few paths go on: roulette has no part in the density of their direction."""
+    walls = [_wall(draw, i, "", 0.95, 0.98) for i in range(SURE)]
+    dark = _wall(draw, SURE, "", 0.2, 0.4)
+    lamp = _hit(draw, SURE + 1, "ex")
+    assert dark.scatter is not None
+    alike = f32(dark.scatter.pdf * draw.logarithmic(0.5, 2))
+    return MisScript(_BLACK, goes_on=False, hits=(*walls, dark, replace(lamp, light_pdf=alike)))
 
 
 _LAMPS = 60  # to be asked: so whoever goes on too often asks much more
@@ -417,6 +464,8 @@ _MIS_PATH_LIGHT = Function(
         Group("a lamp from behind", _of_kinds(("ebx",), ("eb", "x"), ("s", "ebx"), ("", "ebx"))),
         Group("lamps without a size", _of_kinds(("px",), ("p", "px"), ("lp", "lpx"))),
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "le", "x"))),
+        Group("very bright lamps", _very_bright),
+        Group("lamps of one colour", _one_colored),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", "l"), ("l", "s", ""), background=True)),
         Group("a polished plate, a large lamp", lambda d: often(d, _polished(d), 0.1)),
         Group("a dull plate, a small lamp", lambda d: often(d, _dull(d), 0.05)),
@@ -425,6 +474,7 @@ _MIS_PATH_LIGHT = Function(
         Group("light found very late", lambda d: often(d, _late(d), 0.7)),
         Group("lamps met behind many walls", lambda d: often(d, _met_late(d), 0.06)),
         Group("a dark wall", lambda d: often(d, _dark_wall(d), 0.3)),
+        Group("a lamp met behind a dark wall", lambda d: often(d, _met_after_dark_wall(d), 0.1)),
     ),
 )
 
