@@ -7,7 +7,7 @@ import numpy as np
 
 from raysteps.common.vectors import Vector, add, cross, minus, unit
 from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, number_answer, read_vector
-from raysteps.judge.cases.path_tracing import SURE, VERY_LATE, length_problem, often, once, path_answer
+from raysteps.judge.cases.path_tracing import SURE, VERY_LATE, length_problem, often, once, one_channel, path_answer
 from raysteps.judge.estimates import Estimates, estimates_problem
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, Real, Vec, f32, rounded, vector_words
@@ -312,14 +312,8 @@ def _one_colored(draw: RandomSource) -> Inputs:
     """Lamps that shine in one channel alone."""
     kinds = (("ex",), ("", "ex"), ("s", "ex"), ("e", "l", "ex"))[draw.whole(0, 3)]
     script = _script(draw, kinds)
-    hits = tuple(replace(hit, emission=_one_channel(draw) if any(hit.emission) else _BLACK) for hit in script.hits)
+    hits = tuple(replace(hit, emission=one_channel(draw) if any(hit.emission) else _BLACK) for hit in script.hits)
     return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
-
-
-def _one_channel(draw: RandomSource) -> Vector:
-    channel, light = draw.whole(0, 2), draw.color(0.5, 4.0)
-    x, y, z = (light[i] if i == channel else 0.0 for i in range(3))
-    return x, y, z
 
 
 def _plate(draw: RandomSource, exponent: float, lamps: tuple[PlateLamp, ...], low: float, high: float) -> MisHit:

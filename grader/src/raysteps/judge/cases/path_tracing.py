@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -576,6 +576,28 @@ def _bright(draw: RandomSource) -> Inputs:
     return once(draw, PathScript(_BLACK, goes_on=False, hits=tuple(hits)))
 
 
+def one_channel(draw: RandomSource) -> Vector:
+    """A light that is red, green or blue and nothing else."""
+    channel, light = draw.whole(0, 2), draw.color(0.5, 4.0)
+    x, y, z = (light[i] if i == channel else 0.0 for i in range(3))
+    return x, y, z
+
+
+def _seen(emission: Callable[[RandomSource], Vector]) -> Callable[[RandomSource], Inputs]:
+    """Lamps that the eye or a mirror sees, and none that is sampled."""
+    make = _of_kinds(("ex",), ("e", "x"), ("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"))
+
+    def changed(draw: RandomSource) -> Inputs:
+        inputs = make(draw)
+        script = inputs["tracer"]
+        assert isinstance(script, PathScript)
+        lamps = [emission(draw) if any(hit.emission) else _BLACK for hit in script.hits]
+        hits = tuple(replace(hit, emission=sent, light=_BLACK) for hit, sent in zip(script.hits, lamps, strict=True))
+        return {**inputs, "tracer": PathScript(_BLACK, goes_on=False, hits=hits)}
+
+    return changed
+
+
 _PATH_LIGHT = Function(
     "path_light",
     path_answer(_many_problem),
@@ -587,6 +609,8 @@ _PATH_LIGHT = Function(
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "e", "x"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", ""), ("", "s", ""), background=True)),
         Group("a very bright lamp", _bright),
+        Group("a very bright lamp that is seen", _seen(lambda d: d.color(50, 2000))),
+        Group("a lamp of one colour", _seen(one_channel)),
         Group("a furnace", lambda d: often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: often(d, _furnace(d, 0.75, 0.8), 0.06)),
         Group("light found late", lambda d: often(d, _late(d), 0.2)),
