@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csetjmp>
 #include <cstddef>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -30,14 +31,15 @@ constexpr std::size_t k_guard_bytes = std::size_t{1} << 20U;
 /// Each stack begins elsewhere in its topmost page: if all began at the same place, what is on top of them would share
 /// a few places of the processor's cache.
 constexpr std::size_t k_page_bytes = 4096;
-constexpr std::size_t k_step_bytes = 1088;  // from one to the next: all lines of a page have their turn
+constexpr std::size_t k_shift_bytes = 1088;  // from one to the next: all lines of a page have their turn
+static_assert(k_shift_bytes % 16 == 0, "what is on a stack expects it to begin so");
 
 /// Below it lies what nobody may touch: who overflows the stack crashes, as on any other.
 class Stack {
 public:
     Stack() {
-        static std::size_t made = 0;
-        size_ = k_stack_bytes + k_page_bytes - made++ * k_step_bytes % k_page_bytes;
+        thread_local std::size_t made = 0;
+        size_ = k_stack_bytes + k_page_bytes - made++ * k_shift_bytes % k_page_bytes;
         base_ = mmap(nullptr, k_all_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         if (base_ == MAP_FAILED || mprotect(base_, k_guard_bytes, PROT_NONE) != 0) {
             throw std::system_error(errno, std::generic_category(), "no stack for a fiber");
@@ -74,7 +76,7 @@ void begin_at(Place& place, const Stack& stack, Body body) {
     place.context.uc_link = nullptr;
     makecontext(&place.context, body, 0);
 }
-#elif defined(__x86_64__) && !defined(__AVX512F__)
+#elif defined(__x86_64__) && defined(__LP64__) && !defined(__AVX512F__) && !defined(RAYSTEPS_PORTABLE_FIBERS)
 /// What a function must find as it left it, the compiler keeps on the stack: it is told that all else is lost. Of the
 /// registers of AVX-512 it is not told: a build for those goes the way below.
 struct Place {
@@ -119,6 +121,7 @@ void change(Place& from, Place& to) {
     }
     if (std::exchange(to.begins, false)) {
         setcontext(&to.first);
+        std::abort();  // it did not go there
     }
     _longjmp(to.registers, 1);
 }

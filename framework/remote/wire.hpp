@@ -131,7 +131,8 @@ private:
         bool serves = false;              ///< the other end began it
     };
 
-    /// A student may have threads of its own; a program asks and answers from one.
+    /// A student may have threads of its own; before the first of them nobody else is here, and nothing of a student's
+    /// starts one while a message is written. A program asks and answers from one thread.
     [[nodiscard]] std::unique_lock<std::recursive_mutex> guard() {
         const bool alone = end_ == End::home || is_only_thread();
         return alone ? std::unique_lock<std::recursive_mutex>() : std::unique_lock(mutex_);

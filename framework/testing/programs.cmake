@@ -56,7 +56,11 @@ if(NOT TARGET raysteps-wide)
 endif()
 if(TARGET raysteps-wire)
     file(GLOB remote_tests CONFIGURE_DEPENDS "remote/*_test.cpp")
-    list(APPEND framework_tests ${remote_tests} $<TARGET_OBJECTS:raysteps-wire>)
+    # As fibers change on processors for which fiber.cpp has no instructions.
+    add_library(portable-fibers OBJECT remote/fiber.cpp remote/fiber_test.cpp)
+    target_compile_definitions(portable-fibers PRIVATE RAYSTEPS_PORTABLE_FIBERS Fiber=PortableFiber)
+    target_link_libraries(portable-fibers PRIVATE raysteps-testing raysteps-flags raysteps-strict)
+    list(APPEND framework_tests ${remote_tests} $<TARGET_OBJECTS:raysteps-wire> $<TARGET_OBJECTS:portable-fibers>)
 endif()
 raysteps_add_test(test-framework SOURCES ${framework_tests} apps/options.cpp apps/stats_json.cpp apps/spd_report.cpp
                   apps/inspect_options.cpp apps/view_options.cpp $<TARGET_OBJECTS:raysteps-inspect-recorded>)

@@ -1,0 +1,129 @@
+#include "remote/fiber.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "testing/testing.hpp"
+
+// Compiled once more as fibers change on processors for which fiber.cpp has no instructions.
+#ifdef RAYSTEPS_PORTABLE_FIBERS
+#define WAY " (as on other processors)"
+#else
+#define WAY ""
+#endif
+
+using namespace raysteps::remote;
+
+namespace {
+
+constexpr int k_fibers = 70;  // more than begin at different places
+
+using Fibers = std::vector<std::unique_ptr<Fiber>>;
+
+/// Makes as many as that, each of body(number, itself), and resumes them in turns until all have ended.
+template <typename Body>
+void run_in_turns(const Body& body) {
+    Fibers fibers;
+    for (int number = 0; number < k_fibers; ++number) {
+        fibers.push_back(std::make_unique<Fiber>(
+            [&fibers, &body, number] { body(number, *fibers[static_cast<std::size_t>(number)]); }));
+    }
+    for (bool all_ended = false; !all_ended;) {
+        all_ended = true;
+        for (const std::unique_ptr<Fiber>& fiber : fibers) {
+            if (!fiber->ended()) {
+                fiber->resume();
+                all_ended = all_ended && fiber->ended();
+            }
+        }
+    }
+}
+
+/// Stops `levels` deep, and adds up what it knew on each level before.
+double sum_across_stops(Fiber& self, int levels, double value) {
+    if (levels == 0) {
+        self.stop();
+        return value;
+    }
+    const double mine = value * 1.5 + levels;
+    self.stop();
+    const double rest = sum_across_stops(self, levels - 1, mine);
+    return mine + rest;
+}
+
+double sum_without_stops(int levels, double value) {
+    if (levels == 0) {
+        return value;
+    }
+    const double mine = value * 1.5 + levels;
+    return mine + sum_without_stops(levels - 1, mine);
+}
+
+}  // namespace
+
+TEST_CASE("fibers that take turns keep what they know" WAY, "[remote]") {
+    std::array<double, k_fibers> sums{};
+    run_in_turns([&sums](int number, Fiber& self) {
+        sums[static_cast<std::size_t>(number)] = sum_across_stops(self, 1 + number % 7, number);
+    });
+    for (int number = 0; number < k_fibers; ++number) {
+        REQUIRE(sums[static_cast<std::size_t>(number)] == sum_without_stops(1 + number % 7, number));
+    }
+}
+
+TEST_CASE("the stacks of fibers are aligned as the system's are" WAY, "[remote]") {
+    std::set<std::uintptr_t> odd;
+    std::set<std::string> words;
+    run_in_turns([&](int number, Fiber& self) {
+        alignas(16) std::array<float, 4> numbers{};
+        numbers[0] = static_cast<float>(number);
+        self.stop();
+        odd.insert(reinterpret_cast<std::uintptr_t>(numbers.data()) % 16);
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%.1f", static_cast<double>(numbers[0]));  // libraries count on it
+        words.insert(text.data());
+    });
+    REQUIRE(odd == std::set<std::uintptr_t>{0});
+    REQUIRE(words.size() == k_fibers);
+    REQUIRE(words.contains("69.0"));
+}
+
+TEST_CASE("a fiber that stops in a handler has its own exception afterwards" WAY, "[remote]") {
+    std::array<std::string, k_fibers> caught;
+    run_in_turns([&caught](int number, Fiber& self) {
+        try {
+            try {
+                throw std::runtime_error(std::to_string(number));
+            } catch (const std::runtime_error&) {
+                self.stop();
+                throw;
+            }
+        } catch (const std::runtime_error& error) {
+            self.stop();
+            caught[static_cast<std::size_t>(number)] = error.what();
+        }
+    });
+    for (int number = 0; number < k_fibers; ++number) {
+        REQUIRE(caught[static_cast<std::size_t>(number)] == std::to_string(number));
+    }
+}
+
+TEST_CASE("a fiber that never ends is given back as it is" WAY, "[remote]") {
+    int begun = 0;
+    {
+        Fiber fiber([&begun, &fiber] {
+            ++begun;
+            fiber.stop();
+            ++begun;
+        });
+        fiber.resume();
+        REQUIRE_FALSE(fiber.ended());
+    }
+    REQUIRE(begun == 1);
+}
