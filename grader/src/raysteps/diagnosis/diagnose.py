@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 from raysteps.common.text import join_and, join_some
 from raysteps.course.manifest import Step
-from raysteps.course.mutants import Mutant, read_mutants
+from raysteps.course.mutants import read_mutants
 from raysteps.course.stubs import placed_tokens
 from raysteps.diagnosis.evidence import Evidence, Picture, Questions, differing, listen, questions_of
 from raysteps.diagnosis.matching import match, name_mistakes, spoils
-from raysteps.diagnosis.mutant_fingerprints import Known, mutant_fingerprints
+from raysteps.diagnosis.mutant_fingerprints import learned_fingerprints, mutant_fingerprints
 from raysteps.diagnosis.pixel_regions import Terms, findings
 from raysteps.diagnosis.transforms import BEFORE, Transformed, in_words, transformation_of
 from raysteps.images.compare import Pixels
@@ -214,19 +214,6 @@ def asked_about(unset: Sequence[Unset]) -> Iterator[Diagnosis]:
         yield Diagnosis("finding", _PERHAPS, title, hint=hint)
 
 
-def _mistakes(mutants: Sequence[Mutant], known: Known, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
-    """Known mistakes, and the pictures that they spoil."""
-    forms = [(name, form) for mutant in mutants for name, form in mutant.choices().items()]
-    named = name_mistakes([match(form, known[name], evidence) for name, form in forms])
-    spoilt = {
-        name
-        for one in named
-        for name, picture in evidence.pictures.items()
-        if name in one.explains or spoils(known[one.mutant.id].pictures.get(name), picture)
-    }
-    return [one.diagnosis() for one in named], spoilt
-
-
 _MAX_SECONDS = 4.0  # of one run of a student's worker: it has answered as many cases before
 
 
@@ -252,14 +239,11 @@ class Diagnostician:
         `spoilt_functions`: those that are better than they look, since they call one that is wrong."""
         pictures = self._pictures(mine) if not unfinished else {}
         questions = self._questions(result, unfinished, spoilt_functions)
-        mutants = read_mutants(self.kit.project, self.step)
-        known = mutant_fingerprints(self.kit, self.step, self.plan, mutants, self.say) if mutants else {}
-        mistakes = [one.answers for one in known.values()]
-        answers = listen(questions, self.ask, _MAX_SECONDS, mistakes) if self.ask is not None else {}
+        learned = [one.answers for one in learned_fingerprints(self.kit, self.step).values()]
+        answers = listen(questions, self.ask, _MAX_SECONDS, learned) if self.ask is not None else {}
         passed = {item.name for item in result.hidden if item.kind == "function" and item.passed}
         apart = passed & set(spoilt_functions)
-        evidence = Evidence(questions, answers, pictures, passed - apart, apart)
-        named, spoilt = _mistakes(mutants, known, evidence) if evidence.is_wrong else ([], set())
+        named, spoilt = self._mistakes(Evidence(questions, answers, pictures, passed - apart, apart))
         open_ = {
             name: picture
             for name, picture in pictures.items()
@@ -272,6 +256,23 @@ class Diagnostician:
         first = list(used_without_value(self.step, result, self.kit.tests.get(self.step.id, {}), unset))
         perhaps = [] if first else list(warned_of(self.step, result)) or list(asked_about(unset))
         return [*first, *named, *found, *perhaps, *findings(self.kit, self.step, rest)]
+
+    def _mistakes(self, evidence: Evidence) -> tuple[list[Diagnosis], set[str]]:
+        """Known mistakes, and the pictures that they spoil."""
+        mutants = read_mutants(self.kit.project, self.step)
+        if not mutants or not evidence.is_wrong:
+            return [], set()
+        known = mutant_fingerprints(self.kit, self.step, self.plan, mutants, self.say)
+        forms = [(name, form) for mutant in mutants for name, form in mutant.choices().items()]
+        matches = [match(form, known[name], evidence) for name, form in forms]
+        named = name_mistakes(matches)
+        spoilt = {
+            name
+            for one in named
+            for name, picture in evidence.pictures.items()
+            if name in one.explains or spoils(known[one.mutant.id].pictures.get(name), picture)
+        }
+        return [one.diagnosis() for one in named], spoilt
 
     def _pictures(self, mine: Mapping[str, Pixels]) -> dict[str, Picture]:
         found = {}

@@ -259,15 +259,19 @@ def _worth(mistake: str, mine: str) -> float:
 
 
 @lru_cache(maxsize=1 << 12)  # one answer is compared with those of all mistakes
-def _parsed(answer: Answer[Any], line: str) -> Any:
-    return answer.parse(line)
+def _parsed(answer: Answer[Any], line: str) -> list[Any]:
+    """The value; none where it cannot be read."""
+    try:
+        return [answer.parse(line)]
+    except (ProtocolError, ArithmeticError, ValueError):
+        return []
 
 
 def _fits(function: Function, case: Case, mistake: str, mine: str) -> bool:
     """Whether the judge would call my answer right if the mistake's were the truth."""
+    values = [*_parsed(function.answer, mistake), *_parsed(function.answer, mine)]
     try:
-        expected, actual = _parsed(function.answer, mistake), _parsed(function.answer, mine)
-        return not function.answer.problem(case.inputs, expected, actual)
+        return len(values) == 2 and not function.answer.problem(case.inputs, *values)
     except (ProtocolError, ArithmeticError, ValueError):
         return False
 

@@ -154,6 +154,11 @@ def are_learned(kit: BuiltKit, step: Step) -> bool:
     return _place(kit, step).is_file()
 
 
+def learned_fingerprints(kit: BuiltKit, step: Step) -> Known:
+    """Those of the mistakes that were learned already."""
+    return _found(_place(kit, step)) or {}
+
+
 def mutant_fingerprints(
     kit: BuiltKit,
     step: Step,
