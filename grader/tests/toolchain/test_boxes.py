@@ -19,10 +19,9 @@ Binaries = dict[str, Path]  # by the numbers of their steps
 
 @pytest.fixture(scope="module")
 def binaries(kit: BuiltKit, solved: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> Binaries:
-    """The solutions as a student's libraries, compiled once; each in a folder of its own, as a box sees the folder."""
-    folder = tmp_path_factory.mktemp("solved")
-    builds = {step: StudentBuild(kit, LimitsOnly(), folder / step.number) for step in kit.steps}
-    return {step.number: _compiled(build, step, solved[step.id]) for step, build in builds.items()}
+    """The solutions as a student's libraries, compiled once by one build, as those of a submission are."""
+    build = StudentBuild(kit, LimitsOnly(), tmp_path_factory.mktemp("solved"))
+    return {step.number: _compiled(build, step, solved[step.id]) for step in kit.steps}
 
 
 def test_no_reference_is_in_a_box(kit: BuiltKit, binaries: Binaries, tmp_path: Path) -> None:
