@@ -72,6 +72,7 @@ def test_a_range_steps_over_what_is_left_out(steps: list[Step]) -> None:
         ("1-19", "no step '19'"),
         (",", "expected steps, such as 1-4"),
         ("elsewhere/02-intersection/x.cpp", "no step 'elsewhere/02-intersection/x.cpp'"),
+        ("02-intersection/../03-phong-shading", "no step '02-intersection/"),
     ],
 )
 def test_what_names_no_step_is_refused(steps: list[Step], name: str, words: str) -> None:

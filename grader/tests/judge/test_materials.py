@@ -1,6 +1,7 @@
 """What the judge says of microfacets and of samples of metal and glass that are wrong in one way."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -145,6 +146,17 @@ def test_each_part_of_a_sample_of_metal_is_looked_at(line: str, said: str) -> No
 
 def test_right_samples_of_metal_never_fail() -> None:
     assert not any(_said("scatter_metal", _SCATTER, _metal(), _metal(seed=seed)) for seed in range(20))
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [("0 " * _TIMES, ""), (_metal(), "the view is not above the surface"), ("0 " * (_TIMES - 1), "no proper answer")],
+)
+def test_metal_that_is_seen_from_below_gives_nothing(line: str, said: str) -> None:
+    inputs = {**_SCATTER, "hit": replace(_HIT, ray_direction=(0.6, 0.0, 0.8))}
+    found = _said("scatter_metal", inputs, "0 " * _TIMES, line)
+    assert said in found
+    assert bool(said) == bool(found)
 
 
 _GLASS: Inputs = {

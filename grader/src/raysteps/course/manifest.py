@@ -286,7 +286,8 @@ def earlier(step: Step, steps: Sequence[Step]) -> list[Step]:
 
 
 _RANGE = re.compile(r"([0-9]{1,2})[-\u2013]([0-9]{1,2})")
-_IN_STEPS = re.compile(r"(?:\.[/\\])?(?:steps[/\\])?([^/\\]+)(?:[/\\].*)?")  # as a shell completes it
+# A step's folder or what is in it, as a shell completes it in the kit's folder or in steps/.
+_IN_STEPS = re.compile(r"(?!.*\.\.)(?:\.[/\\]+)?(?:steps[/\\]+)?([^/\\]+)(?:[/\\].*)?")
 STEPS_HELP = "such as 1-4, 01 02 or 1,3"  # what `choose` takes
 
 
