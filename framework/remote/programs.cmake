@@ -1,5 +1,5 @@
 # Steps that are in another process: their stand-ins in the programs, and the box that a student's step is in. The kit
-# links them. A students' kit has no grades, and none of this.
+# links them. A students' kit has no grades, and none of this; other systems have no boxes.
 if(NOT CMAKE_SYSTEM_NAME STREQUAL "Linux")
     return()
 endif()
