@@ -64,18 +64,20 @@ private:
 
 using Body = void (*)();  // never returns
 
+[[maybe_unused]] void prepare(ucontext_t& context, const Stack& stack, Body body) {
+    getcontext(&context);
+    context.uc_stack.ss_sp = stack.lowest();
+    context.uc_stack.ss_size = stack.size();
+    context.uc_link = nullptr;
+    makecontext(&context, body, 0);
+}
+
 #if RAYSTEPS_SANITIZED
 struct Place {
     ucontext_t context;
 };
 void change(Place& from, Place& to) { swapcontext(&from.context, &to.context); }
-void begin_at(Place& place, const Stack& stack, Body body) {
-    getcontext(&place.context);
-    place.context.uc_stack.ss_sp = stack.lowest();
-    place.context.uc_stack.ss_size = stack.size();
-    place.context.uc_link = nullptr;
-    makecontext(&place.context, body, 0);
-}
+void begin_at(Place& place, const Stack& stack, Body body) { prepare(place.context, stack, body); }
 #elif defined(__x86_64__) && defined(__LP64__) && !defined(__AVX512F__) && !defined(RAYSTEPS_PORTABLE_FIBERS)
 /// What a function must find as it left it, the compiler keeps on the stack: it is told that all else is lost. Of the
 /// registers of AVX-512 it is not told: a build for those goes the way below.
@@ -126,11 +128,7 @@ void change(Place& from, Place& to) {
     _longjmp(to.registers, 1);
 }
 void begin_at(Place& place, const Stack& stack, Body body) {
-    getcontext(&place.first);
-    place.first.uc_stack.ss_sp = stack.lowest();
-    place.first.uc_stack.ss_size = stack.size();
-    place.first.uc_link = nullptr;
-    makecontext(&place.first, body, 0);
+    prepare(place.first, stack, body);
     place.begins = true;
 }
 #endif
