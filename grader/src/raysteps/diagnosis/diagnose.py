@@ -239,8 +239,9 @@ class Diagnostician:
         `spoilt_functions`: those that are better than they look, since they call one that is wrong."""
         pictures = self._pictures(mine) if not unfinished else {}
         questions = self._questions(result, unfinished, spoilt_functions)
-        learned = [one.answers for one in learned_fingerprints(self.kit, self.step).values()]
-        answers = listen(questions, self.ask, _MAX_SECONDS, learned) if self.ask is not None else {}
+        known = learned_fingerprints(self.kit, self.step) if questions else {}
+        mistakes = [one.answers for one in known.values()]
+        answers = listen(questions, self.ask, _MAX_SECONDS, mistakes) if self.ask is not None else {}
         passed = {item.name for item in result.hidden if item.kind == "function" and item.passed}
         apart = passed & set(spoilt_functions)
         named, spoilt = self._mistakes(Evidence(questions, answers, pictures, passed - apart, apart))

@@ -376,11 +376,11 @@ def _weight_problem(what: str, mine: Numbers, right: Numbers, steep: Mask) -> st
 def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     hit, alpha = inputs["hit"], real_of(inputs, "roughness")
     assert isinstance(hit, Hit)
-    seen_from_below = dot(hit.ray_direction, hit.normal) > 0
-    if actual.count != whole_of(inputs, "times") or not (seen_from_below or len(actual.rows)):
-        return ("no proper answer came",) * 4
-    if seen_from_below:
+    proper = actual.count == whole_of(inputs, "times")
+    if proper and dot(hit.ray_direction, hit.normal) > 0:
         return ("a path goes on though the view is not above the surface" if len(actual.rows) else "",) * 4
+    if not proper or not len(actual.rows):
+        return ("no proper answer came",) * 4
     view, light = _local(inputs, actual.directions)
     wrong = unit_problem(actual.directions) or odd_number("a number of a sample", actual.rows)
     if wrong:

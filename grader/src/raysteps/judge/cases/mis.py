@@ -293,27 +293,28 @@ def _of_kinds(*choices: tuple[str, ...], background: bool = False) -> Callable[[
     return make
 
 
-def _very_bright(draw: RandomSource) -> Inputs:
+def _changed(
+    change: Callable[[RandomSource, MisHit], MisHit], *choices: tuple[str, ...]
+) -> Callable[[RandomSource], Inputs]:
+    """Scripts of such kinds, with each hit changed."""
+
+    def make(draw: RandomSource) -> Inputs:
+        script = _script(draw, choices[draw.whole(0, len(choices) - 1)])
+        hits = tuple(change(draw, hit) for hit in script.hits)
+        return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+
+    return make
+
+
+def _very_bright(draw: RandomSource, hit: MisHit) -> MisHit:
     """Whoever cuts bright light off makes the mean wrong."""
-    kinds = (("el", "x"), ("l", "ex"), ("", "lex"), ("s", "ex"))[draw.whole(0, 3)]
-    script = _script(draw, kinds)
-    hits = tuple(
-        replace(
-            hit,
-            emission=draw.color(100, 5000) if any(hit.emission) else _BLACK,
-            samples=DirectSamples(tuple(_bright(draw) for _ in hit.samples.samples)),
-        )
-        for hit in script.hits
-    )
-    return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+    emission = draw.color(100, 5000) if any(hit.emission) else _BLACK
+    return replace(hit, emission=emission, samples=DirectSamples(tuple(_bright(draw) for _ in hit.samples.samples)))
 
 
-def _one_colored(draw: RandomSource) -> Inputs:
-    """Lamps that shine in one channel alone."""
-    kinds = (("ex",), ("", "ex"), ("s", "ex"), ("e", "l", "ex"))[draw.whole(0, 3)]
-    script = _script(draw, kinds)
-    hits = tuple(replace(hit, emission=one_channel(draw) if any(hit.emission) else _BLACK) for hit in script.hits)
-    return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+def _one_colored(draw: RandomSource, hit: MisHit) -> MisHit:
+    """Its lamp shines in one channel alone."""
+    return replace(hit, emission=one_channel(draw)) if any(hit.emission) else hit
 
 
 def _plate(draw: RandomSource, exponent: float, lamps: tuple[PlateLamp, ...], low: float, high: float) -> MisHit:
@@ -458,8 +459,8 @@ _MIS_PATH_LIGHT = Function(
         Group("a lamp from behind", _of_kinds(("ebx",), ("eb", "x"), ("s", "ebx"), ("", "ebx"))),
         Group("lamps without a size", _of_kinds(("px",), ("p", "px"), ("lp", "lpx"))),
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "le", "x"))),
-        Group("very bright lamps", _very_bright),
-        Group("lamps of one colour", _one_colored),
+        Group("very bright lamps", _changed(_very_bright, ("el", "x"), ("l", "ex"), ("", "lex"), ("s", "ex"))),
+        Group("lamps of one colour", _changed(_one_colored, ("ex",), ("", "ex"), ("s", "ex"), ("e", "l", "ex"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", "l"), ("l", "s", ""), background=True)),
         Group("a polished plate, a large lamp", lambda d: often(d, _polished(d), 0.1)),
         Group("a dull plate, a small lamp", lambda d: often(d, _dull(d), 0.05)),
