@@ -12,7 +12,7 @@
 //     normal         unit length, turned to the side the ray came from: dot(normal, direction) <= 0
 //     ray_direction  ray.direction
 //     distance       from ray.origin to position
-//     front_face   true where the surface's own normal already faced the ray. That normal points away
+//     front_face     true where the surface's own normal already faced the ray. That normal points away
 //                    from a sphere's centre, and along (b - a) x (c - a) of a triangle.
 // A triangle is seen from both sides and includes its edges; a ray in its plane misses it.
 // From inside a sphere the far wall is hit. A ray that only touches a sphere hits it, from either side.

@@ -32,7 +32,7 @@ namespace raysteps {
 ///     alpha^2 / (pi ((alpha^2 - 1) z^2 + 1)^2),   z being normal.z;   0 where z is not above 0.
 [[nodiscard]] float ggx_distribution(const glm::vec3& normal, float alpha);
 
-/// How much of the microfacets hide each other from a direction, to either side of the surface (Heitz 2014, equation
+/// How much the microfacets hide each other from a direction, to either side of the surface (Heitz 2014, equation
 /// 72): (sqrt(1 + alpha^2 tan^2) - 1) / 2, tan being that of its angle with (0, 0, 1). A share of 1 / (1 + lambda) is
 /// seen from there. direction.z is not 0.
 [[nodiscard]] float ggx_lambda(const glm::vec3& direction, float alpha);
