@@ -78,14 +78,14 @@ glm::vec3 sample_visible_normal(const glm::vec3& view, float alpha, const glm::v
     const glm::vec3 level(-stretched.y, stretched.x, 0.0F);
     const glm::vec3 across = glm::length(level) > 0.0F ? glm::normalize(level) : glm::vec3(1.0F, 0.0F, 0.0F);
     const glm::vec3 up = glm::cross(stretched, across);
-    // a point of the unit disk, whose lower half is what is seen of the ground, squeezed
+    // a point of the unit disk, whose lower half is squeezed to what the ground leaves of it
     const float radius = std::sqrt(u.x);
     const float angle = 2.0F * glm::pi<float>() * u.y;
     const float x = radius * std::cos(angle);
     const float whole = std::sqrt(1.0F - x * x);
     const float share = 0.5F * (1.0F + stretched.z);
     const float y = (1.0F - share) * whole + share * radius * std::sin(angle);
-    // up to the half sphere, and back
+    // up to the half sphere, and back; whatever rounding does, z stays above 0
     const float height = std::sqrt(std::max(0.0F, 1.0F - x * x - y * y));
     const glm::vec3 normal = x * across + y * up + height * stretched;
     return glm::normalize(glm::vec3(alpha * normal.x, alpha * normal.y, std::max(1e-6F, normal.z)));

@@ -45,7 +45,7 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
     const glm::vec3 from_center = ray.origin - center_;
     const float to_closest = -glm::dot(from_center, ray.direction);
     const glm::vec3 closest = from_center + to_closest * ray.direction;
-    // Measured at the closest point, where the numbers are small: b^2 - 4ac would lose its digits far away.
+    // Measured at the closest point, where the numbers are small: b^2 - q would lose its digits far away.
     const float half_chord_squared = radius_ * radius_ - glm::dot(closest, closest);
     if (half_chord_squared < 0.0F) {
         return std::nullopt;

@@ -30,7 +30,8 @@ std::optional<HitRecord> Triangle::intersect(const Ray& ray) const {
         return std::nullopt;
     }
     const glm::vec3 point = point_at(ray, distance);
-    // Above 0 on the inner side of an edge: the area between edge and point, times the whole.
+    // Above 0 on the inner side of an edge: the area between edge and point, times that of the triangle, both of them
+    // doubled. The three add up to the square of the latter.
     const glm::vec3 to_point = point - a_;
     const float inside_ca = glm::dot(glm::cross(to_point, to_c), plane_normal);
     const float inside_ab = glm::dot(glm::cross(to_b, to_point), plane_normal);
@@ -46,7 +47,7 @@ std::optional<HitRecord> Sphere::intersect(const Ray& ray) const {
     const glm::vec3 from_center = ray.origin - center_;
     const float to_closest = -glm::dot(from_center, ray.direction);
     const glm::vec3 closest = from_center + to_closest * ray.direction;
-    // Measured at the closest point, where the numbers are small: b^2 - 4ac would lose its digits far away.
+    // Measured at the closest point, where the numbers are small: b^2 - q would lose its digits far away.
     const float half_chord_squared = radius_ * radius_ - glm::dot(closest, closest);
     if (half_chord_squared < 0.0F) {
         return std::nullopt;

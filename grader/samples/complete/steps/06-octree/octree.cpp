@@ -117,7 +117,7 @@ float largest_below(const SurfaceList& surfaces) {
 
 /// Shortens the part of the ray to what is inside the box. Along an axis whose direction is 0 the distances are
 /// infinite: they leave the part as it is, or make it empty where the origin is outside. On the very plane 0 * infinity
-/// is NaN, which max and min pass over.
+/// is NaN, which max and min pass over where it is the second of their two numbers.
 inline std::optional<Interval> part_inside(const Box& box, const glm::vec3& origin, const glm::vec3& inverse,
                                            Interval part) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -223,7 +223,7 @@ std::optional<Interval> Box::clip(const Ray& ray) const {
 bool Sphere::overlaps(const Box& box) const {
     const glm::vec3 nearest = glm::clamp(center_, box.min, box.max);
     const glm::vec3 farthest = glm::max(glm::abs(box.min - center_), glm::abs(box.max - center_));
-    const float slack = 1.0F + 1e-5F;
+    const float slack = 1.0F + 1e-5F;  // for rounding: a "no" too many loses hits
     const bool reaches = glm::distance(center_, nearest) <= radius_ * slack;
     const bool holds_all_of_box = glm::length(farthest) * slack < radius_;  // a sphere is a shell, not a ball
     return reaches && !holds_all_of_box;
@@ -236,7 +236,7 @@ bool Triangle::overlaps(const Box& box) const {
     // Separating axes (Akenine-Moller 2001): the triangle's normal, and each edge with each axis of the box.
     const glm::vec3 center = box.center();
     const glm::vec3 half = 0.5F * (box.max - box.min);
-    const glm::vec3 padded = half + 1e-6F * (glm::abs(center) + half);
+    const glm::vec3 padded = half + 1e-6F * (glm::abs(center) + half);  // for rounding, too
     const std::array<glm::vec3, 3> corners{a_ - center, b_ - center, c_ - center};
     const std::array<glm::vec3, 3> edges{b_ - a_, c_ - b_, a_ - c_};
     if (separates(glm::cross(edges[0], edges[1]), corners, padded)) {
