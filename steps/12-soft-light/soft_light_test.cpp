@@ -294,6 +294,7 @@ TEST_CASE("sample_triangle: its density, from before and from behind", "[12-soft
         INFO("an area of 6: distance squared over 6 cos");
         CHECK(sample.pdf == about(distance * distance / (6.0F * cosine)));
     }
+    INFO("it shines up: nothing is seen from below");
     CHECK(sample_triangle(k_triangle, {1.0F, -3.0F, 1.0F}, {0.3F, 0.6F}).pdf == 0.0F);
 }
 
@@ -308,6 +309,7 @@ TEST_CASE("sample_disk: on the disk, with its normal and density", "[12-soft-lig
         const float distance = glm::distance(from, sample.position);
         CHECK(sample.pdf == about(distance * distance * distance / (3.0F * k_pi * 0.25F)));
     });
+    INFO("it shines down: nothing is seen from above");
     CHECK(sample_disk(k_disk, {2.0F, 6.0F, -1.0F}, {0.3F, 0.6F}).pdf == 0.0F);
 }
 

@@ -323,6 +323,7 @@ TEST_CASE("path_light: each hit's light sample counts times the weight", "[13-pa
     PathOfStops path(stops);
     INFO("0.3 + 0.5 * 0.4 + 0.5 * 0.25 * 0.8");
     CHECK_THAT(light_along(path), IsNear(Color(0.6F)));
+    INFO("three hits: one ray to each, and at each one light sample and one call of scatter");
     CHECK(path.rays == 3);
     CHECK(path.light_samples == 3);
     CHECK(path.scatters == 3);
