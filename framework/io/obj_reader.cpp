@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "io/files.hpp"
@@ -47,7 +48,11 @@ private:
         std::size_t position = 0;
         std::optional<std::size_t> uv;
         std::optional<std::size_t> normal;
-        auto operator<=>(const Corner&) const = default;
+
+        // Not <=>, which the optional of Xcode 15 lacks.
+        bool operator<(const Corner& other) const {
+            return std::tie(position, uv, normal) < std::tie(other.position, other.uv, other.normal);
+        }
     };
 
     [[nodiscard]] bool is_on(std::size_t line) {
