@@ -15,7 +15,4 @@ struct MeshData {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The most that any reader takes: 64 million corners of triangles.
-inline constexpr std::size_t k_max_mesh_items = std::size_t{1} << 26U;
-
 }  // namespace raysteps

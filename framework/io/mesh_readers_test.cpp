@@ -56,6 +56,15 @@ TEST_CASE("PLY as text", "[ply]") {
     CHECK(mesh.uvs.empty());
 }
 
+TEST_CASE("PLY with blanks at the ends of lines, CRLF, and no line break at the end", "[ply]") {
+    const MeshData mesh = read_ply(
+        "ply \r\nformat ascii 1.0\t\r\nelement vertex 3 \r\nproperty float x\r\nproperty float y\r\nproperty float "
+        "z\r\n"
+        "element face 1\r\nproperty list uchar int vertex_indices\r\nend_header\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n3 0 1 2",
+        "a.ply");
+    CHECK(mesh.triangles.size() == 1);
+}
+
 TEST_CASE("PLY in either byte order", "[ply]") {
     for (const bool little : {true, false}) {
         const bool swapped = little != (std::endian::native == std::endian::little);
@@ -97,6 +106,8 @@ TEST_CASE("PLY with normals, texture coordinates, unknown elements and a face of
 }
 
 TEST_CASE("bad PLY files", "[ply][errors]") {
+    CHECK(ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float z\nend_header\n0 0\n") ==
+          "bad.ply:6:1: expected the properties x, y and z of the vertices before it, found `end_header`");
     CHECK(ply_error("") == "bad.ply:1:1: expected `ply`, the first line of a PLY file, found nothing");
     CHECK(ply_error("ply\nformat ascii 2.0\n") ==
           "bad.ply:2:1: expected `format` and ascii, binary_little_endian or binary_big_endian, and 1.0, found `format "

@@ -44,6 +44,8 @@ TEST_CASE("a viewpoint that shows nothing", "[nff][errors]") {
           "bad.nff:4:1: expected `up` with a length above 0, found a zero vector");
     CHECK(error_of("v\nfrom 0 0 3\nat 0 0 0\nup 0 0 -7\nangle 45\n") ==
           "bad.nff:4:1: expected `up` at an angle to the view, found a parallel vector");
+    CHECK(error_of("v\nfrom 0 0 5\nat 0 0 0\nup 0 2e-24 1.1e-19\nangle 45\n") ==
+          "bad.nff:4:1: expected `up` at an angle to the view, found a parallel vector");
     for (const std::string angle : {"0", "180", "-45", "179.9999999999"}) {
         CHECK(error_of("v from 1 2 3 at 0 0 0 up 0 0 1 angle " + angle) ==
               "bad.nff:1:38: expected `angle` above 0 and below 180 degrees, found `" + angle + "`" +

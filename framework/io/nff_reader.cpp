@@ -101,7 +101,8 @@ private:
             scanner_.fail(known("up")->seen, "`up` with a length above 0", "a zero vector");
         }
         const glm::dvec3 side = glm::cross(glm::normalize(glm::dvec3(view)), glm::normalize(glm::dvec3(camera_.up)));
-        if (glm::length(side) < k_smallest_sine) {
+        const double across = glm::length(side) * glm::length(glm::dvec3(camera_.up));  // what step 01 makes a unit of
+        if (glm::length(side) < k_smallest_sine || across * across < double{std::numeric_limits<float>::min()}) {
             scanner_.fail(known("up")->seen, "`up` at an angle to the view", "a parallel vector");
         }
     }
@@ -202,8 +203,14 @@ private:
 
 /// NFF has no such entity; pbrt's scenes have that line.
 bool is_pbrt(std::string_view text) {
-    constexpr std::string_view k_line = "WorldBegin";
-    return text.starts_with(k_line) || text.find('\n' + std::string(k_line)) != std::string_view::npos;
+    constexpr std::string_view k_word = "WorldBegin";
+    for (std::size_t at = text.find(k_word); at != std::string_view::npos; at = text.find(k_word, at + 1)) {
+        const std::string_view before = text.substr(0, at);
+        if (before.empty() || before == k_byte_order_mark || before.ends_with('\n') || before.ends_with('\r')) {
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -213,7 +220,7 @@ Scene read_nff(const std::filesystem::path& path) { return read_nff(read_file(pa
 Scene load_scene(std::string_view path, const std::optional<PictureSize>& size) {
     const std::filesystem::path file = path_of(path);
     const std::string text = read_file(file);
-    Scene scene = is_pbrt(text) ? read_pbrt(file) : read_nff(text, display_name(file));
+    Scene scene = is_pbrt(text) ? read_pbrt_file(text, file) : read_nff(text, display_name(file));
     if (size) {
         scene.camera.width = size->width;
         scene.camera.height = size->height;

@@ -219,7 +219,7 @@ private:
             to_camera_ = state_.transform;
             read_lens(scanner, parameters);
         } else if (word == "WorldBegin") {
-            begin_world();
+            begin_world(scanner, token);
         } else if (word == "Sampler" || word == "Integrator" || word == "PixelFilter" || word == "Accelerator") {
             static_cast<void>(scanner.string("a kind"));
             static_cast<void>(scanner.parameters());
@@ -249,7 +249,7 @@ private:
 
     // pbrt's world is left-handed and the kit's is right-handed: so it is looked at in a mirror, unless the scene has a
     // mirror of its own.
-    void begin_world() {
+    void begin_world(const PbrtScanner& scanner, const Token& token) {
         in_world_ = true;
         state_ = State{};
         const Matrix to_world = glm::inverse(to_camera_);
@@ -259,12 +259,23 @@ private:
         const auto at = [&](const glm::dvec4& place) { return glm::vec3(glm::dvec3(mirror_ * to_world * place)); };
         Camera& camera = scene_.camera;
         camera.from = at({0.0, 0.0, 0.0, 1.0});
-        camera.at = camera.from + glm::normalize(at({0.0, 0.0, 1.0, 0.0}));
+        require_near(scanner, token, camera.from);
+        camera.at = camera.from + reach_of_view(camera.from) * glm::normalize(at({0.0, 0.0, 1.0, 0.0}));
         camera.up = glm::normalize(at({0.0, 1.0, 0.0, 0.0}));
         // `fov` is that of the shorter side; the kit's angle is the upright one.
         const float half = glm::tan(glm::radians(fov_) / 2.0F);
         const glm::vec2 sides(camera.width, camera.height);
         camera.angle = glm::degrees(2.0F * std::atan(sides.x < sides.y ? half * sides.y / sides.x : half));
+        if (!(camera.angle < 180.0F)) {
+            scanner.fail(token, "a `fov` that is below 180 degrees from top to bottom, too", "another one");
+        }
+    }
+
+    /// How far ahead the point lies that the camera looks at. Far from the origin a step of 1 is rounded away.
+    static float reach_of_view(const glm::vec3& from) {
+        constexpr float k_exact_enough = 1000.0F;
+        const float distance = glm::length(from);
+        return distance > k_exact_enough ? distance : 1.0F;
     }
 
     // The world.
@@ -354,7 +365,7 @@ private:
         if (kind == "phong" || kind == "coateddiffuse") {
             const bool coated = kind == "coateddiffuse";
             found.fill.ks = coated ? 0.1F : share(scanner, parameters, "ks", 0.3F);
-            found.fill.shine = coated ? 60.0F : parameters.number("shine", 30.0F);
+            found.fill.shine = coated ? 60.0F : amount(scanner, parameters, "shine", 30.0F);
         } else if (kind == "conductor") {
             read_metal(scanner, parameters, found.fill);
             return found;
@@ -428,11 +439,20 @@ private:
         return found;
     }
 
+    static float amount(const PbrtScanner& scanner, const PbrtParameters& parameters, std::string_view name,
+                        float otherwise) {
+        const float found = parameters.number(name, otherwise);
+        if (!(found >= 0.0F)) {
+            scanner.fail(parameters.directive(), '`' + std::string(name) + "` of 0 or more", "another one");
+        }
+        return found;
+    }
+
     // Lights do not fall off with the distance, as in part one.
     void read_light(PbrtScanner& scanner, const Token& token) {
         const std::string kind = scanner.string("a kind of light");
         const PbrtParameters parameters(scanner, token, scanner.parameters());
-        const float scale = parameters.number("scale", 1.0F);
+        const float scale = amount(scanner, parameters, "scale", 1.0F);
         const glm::vec3 from = parameters.point("from", glm::vec3(0.0F));
         if (kind == "point") {
             scene_.lights.push_back({placed(scanner, token, from), scale * parameters.color("I").value_or(k_white)});
@@ -467,11 +487,7 @@ private:
             scanner.fail(token, "a light that shines to one side; two lights back to back shine to both",
                          "`twosided` that is true");
         }
-        const float scale = parameters.number("scale", 1.0F);
-        if (!(scale >= 0.0F)) {
-            scanner.fail(token, "`scale` of 0 or more", "another one");
-        }
-        state_.emission = scale * parameters.color("L").value_or(k_white);
+        state_.emission = amount(scanner, parameters, "scale", 1.0F) * parameters.color("L").value_or(k_white);
     }
 
     // Shapes.
@@ -631,10 +647,14 @@ private:
 
     [[nodiscard]] glm::vec3 placed(const PbrtScanner& scanner, const Token& token, const glm::vec3& point) const {
         const glm::vec3 found(mirror_ * state_.transform * glm::dvec4(point, 1.0));
-        if (!glm::all(glm::lessThanEqual(glm::abs(found), glm::vec3(k_farthest)))) {  // NaN is not, either
+        require_near(scanner, token, found);
+        return found;
+    }
+
+    static void require_near(const PbrtScanner& scanner, const Token& token, const glm::vec3& point) {
+        if (!glm::all(glm::lessThanEqual(glm::abs(point), glm::vec3(k_farthest)))) {  // NaN is not, either
             scanner.fail(token, "points within a thousand million of 0", "one that is farther away");
         }
-        return found;
     }
 
     [[nodiscard]] std::filesystem::path path_to(const PbrtScanner& scanner, const Token& token,
@@ -660,10 +680,12 @@ private:
 
 }  // namespace
 
-Scene read_pbrt(const std::filesystem::path& path) {
+Scene read_pbrt(const std::filesystem::path& path) { return read_pbrt_file(read_file(path), path); }
+
+Scene read_pbrt_file(std::string_view text, const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();
     PbrtReader reader(&folder);
-    reader.read(read_file(path), display_name(path), 0);
+    reader.read(text, display_name(path), 0);
     return reader.finish();
 }
 

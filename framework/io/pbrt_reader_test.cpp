@@ -6,6 +6,7 @@
 #include "core/mesh_triangle.hpp"
 #include "core/sphere.hpp"
 #include "io/files.hpp"
+#include "io/nff_reader.hpp"
 #include "testing/catch.hpp"
 #include "testing/matchers.hpp"
 
@@ -53,6 +54,37 @@ TEST_CASE("a view as pbrt names it", "[pbrt]") {
     CHECK_THAT(scene.camera.from, IsNear({-1.0F, 2.0F, 3.0F}));
     CHECK_THAT(scene.camera.at - scene.camera.from, IsParallelTo({0.0F, 0.0F, -1.0F}));
     CHECK_THAT(scene.camera.up, IsParallelTo({0.0F, 1.0F, 0.0F}));
+}
+
+TEST_CASE("a pbrt scene with a byte order mark, any line ends and any blanks", "[pbrt]") {
+    CHECK(read("\xef\xbb\xbf" + k_view + "\"float\tfov \" [ 30\t]\r\nWorldBegin\r\n").camera.angle == about(30));
+    CHECK(read("# a Mac of old\r" + k_view + "\"float fov\" 30\rWorldBegin # the end").camera.angle == about(30));
+    CHECK(error_of("\xef\xbb\xbfx") ==
+          "bad.pbrt:1:1: expected a directive of the view, such as `Camera`, or `WorldBegin`, found `x`");
+    CHECK(error_of("# 1\r# 2\r\n  x") ==
+          "bad.pbrt:3:3: expected a directive of the view, such as `Camera`, or `WorldBegin`, found `x`");
+    CHECK(error_of("Film \"rgb\r\"").starts_with("bad.pbrt:1:6: expected a closing quote in the same line"));
+}
+
+TEST_CASE("a camera far from the origin looks where it is told", "[pbrt]") {
+    const Camera near = read("Scale -1 1 1 LookAt 0 0 900  0 0 0  0 1 0 Camera \"perspective\" WorldBegin").camera;
+    CHECK(near.at == glm::vec3(0.0F, 0.0F, 899.0F));
+    for (const std::string distance : {"12345", "1e6", "1e8", "1e9"}) {
+        CAPTURE(distance);
+        const Camera camera = read("Scale -1 1 1 LookAt " + distance +
+                                   " 0 0  0 0 0  0 1 0 Camera \"perspective\" "
+                                   "\"float focaldistance\" 1 WorldBegin")
+                                  .camera;
+        CHECK_THAT(camera.at - camera.from, IsParallelTo({-1.0F, 0.0F, 0.0F}));
+    }
+}
+
+TEST_CASE("views that show nothing", "[pbrt][errors]") {
+    CHECK(error_of("Translate 1e9 0 0 Translate 1e9 0 0 Camera \"perspective\"\nWorldBegin") ==
+          "bad.pbrt:2:1: expected points within a thousand million of 0, found one that is farther away");
+    CHECK(error_of("Camera \"perspective\" \"float fov\" 179.99 Film \"rgb\" \"integer xresolution\" 1 \"integer "
+                   "yresolution\" 16384\nWorldBegin") ==
+          "bad.pbrt:2:1: expected a `fov` that is below 180 degrees from top to bottom, too, found another one");
 }
 
 TEST_CASE("a scene with a mirror of its own stays as it is", "[pbrt]") {
@@ -304,6 +336,10 @@ TEST_CASE("directives that this kit does not read", "[pbrt][errors]") {
 }
 
 TEST_CASE("parameters that do not fit", "[pbrt][errors]") {
+    CHECK(error_of("WorldBegin LightSource \"point\" \"float scale\" -1") ==
+          "bad.pbrt:1:12: expected `scale` of 0 or more, found another one");
+    CHECK(error_of("WorldBegin Material \"phong\" \"float shine\" -1") ==
+          "bad.pbrt:1:12: expected `shine` of 0 or more, found another one");
     CHECK(error_of("WorldBegin Shape \"sphere\" \"radius\" 1") ==
           "bad.pbrt:1:27: expected a type and a name in quotes, like \"float fov\", found `\"radius\"`");
     CHECK(error_of("WorldBegin Shape \"sphere\" \"float radius\" [1 2]") ==
@@ -346,6 +382,13 @@ TEST_CASE("meshes and other files beside a scene", "[pbrt]") {
         return read_pbrt(folder / "scene.pbrt");
     };
     CHECK(read_text("Include \"more.pbrt\"").surfaces().size() == 1);
+    for (const std::string start :
+         {"\xef\xbb\xbfWorldBegin", "# a comment\r\nWorldBegin", "# a Mac of old\rWorldBegin"}) {
+        write_file(folder / "scene.pbrt", start + " Shape \"sphere\"");
+        CHECK(load_scene(display_name(folder / "scene.pbrt"), std::nullopt).surfaces().size() == 1);
+    }
+    INFO("as a pipe gives it, once");
+    CHECK(read_pbrt_file("WorldBegin Include \"more.pbrt\"", folder / "nothing.pbrt").surfaces().size() == 1);
     const auto complaint = [&](const std::string& text) {
         try {
             static_cast<void>(read_text(text));

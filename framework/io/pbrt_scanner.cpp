@@ -17,11 +17,18 @@ std::string in_backquotes(std::string_view name) { return '`' + std::string(name
 
 }  // namespace
 
+PbrtScanner::PbrtScanner(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
+    if (text_.starts_with(k_byte_order_mark)) {
+        offset_ = k_byte_order_mark.size();
+        line_start_ = offset_;
+    }
+}
+
 void PbrtScanner::skip_blanks() {
     bool in_comment = false;
     for (; offset_ < text_.size(); ++offset_) {
         const char character = text_[offset_];
-        if (character == '\n') {
+        if (character == '\n' || (character == '\r' && text_.substr(offset_, 2) != "\r\n")) {
             ++line_;
             line_start_ = offset_ + 1;
             in_comment = false;
@@ -43,7 +50,7 @@ Token PbrtScanner::next() {
     const char first = text_[start];
     std::size_t end = start + 1;
     if (first == '"') {
-        end = text_.find_first_of("\"\n", start + 1);
+        end = text_.find_first_of("\"\r\n", start + 1);
         if (end == std::string_view::npos || text_[end] != '"') {
             fail(at, "a closing quote in the same line",
                  quoted(text_.substr(start, std::min(end, text_.size()) - start)));
@@ -109,14 +116,12 @@ std::vector<PbrtParameter> PbrtScanner::parameters() {
 PbrtParameter PbrtScanner::parameter() {
     PbrtParameter found;
     found.at = next();
-    const std::string_view words = unquoted(found.at);
-    const std::size_t gap = words.find(' ');
-    const std::size_t name = words.find_first_not_of(' ', gap);
-    if (gap == std::string_view::npos || gap == 0 || name == std::string_view::npos) {
+    const std::vector<std::string_view> words = words_of(unquoted(found.at));
+    if (words.size() != 2) {
         fail(found.at, "a type and a name in quotes, like \"float fov\"");
     }
-    found.type = words.substr(0, gap);
-    found.name = words.substr(name);
+    found.type = words[0];
+    found.name = words[1];
     Token token = next();
     if (token.text != "[") {
         add_value(found, token);

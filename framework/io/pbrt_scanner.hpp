@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/color.hpp"
@@ -21,11 +22,11 @@ struct PbrtParameter {
 };
 
 /// Tokens are words, numbers, texts in double quotes (with them), `[` and `]`. `#` starts a comment that ends with the
-/// line.
+/// line; lines end, and a byte order mark is skipped, as in NFF.
 class PbrtScanner {
 public:
     /// The text must outlive the scanner and its tokens.
-    PbrtScanner(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+    PbrtScanner(std::string_view text, std::string name);
 
     Token next();
     [[nodiscard]] Token peek() const;

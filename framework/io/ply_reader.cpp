@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "io/files.hpp"
@@ -129,6 +129,7 @@ private:
     std::string element_ = "body";
 };
 
+constexpr std::size_t k_most_items = std::size_t{1} << 26U;  // elements of a kind, or values of a list
 constexpr std::size_t k_most_elements = 100;
 
 bool is_known(std::string_view element) { return element == "vertex" || element == "face"; }
@@ -163,24 +164,13 @@ private:
         return line;
     }
 
-    static std::vector<std::string_view> words_of(std::string_view line) {
-        std::vector<std::string_view> words;
-        for (std::size_t i = 0; i < line.size();) {
-            const std::size_t end = std::min(line.find_first_of(" \t", i), line.size());
-            if (end > i) {
-                words.push_back(line.substr(i, end - i));
-            }
-            i = end + 1;
-        }
-        return words;
-    }
-
     [[noreturn]] void fail(std::string_view expected, std::string_view line) const {
         throw ReadError(name_, line_, 1, expected, line.empty() ? "nothing" : quoted(line));
     }
 
     void read_header() {
-        if (const std::string_view first = next_line(); first != "ply") {
+        const std::string_view first = next_line();
+        if (words_of(first) != std::vector<std::string_view>{"ply"}) {
             fail("`ply`, the first line of a PLY file", first);
         }
         read_format();
@@ -188,6 +178,7 @@ private:
             const std::string_view line = next_line();
             const std::vector<std::string_view> words = words_of(line);
             if (words.size() == 1 && words[0] == "end_header") {
+                check_vertices();
                 return;
             }
             if (words.empty() || words[0] == "comment" || words[0] == "obj_info") {
@@ -200,6 +191,20 @@ private:
                 read_property(words, line);
             } else {
                 fail("`element`, `property`, `comment` or `end_header`", line);
+            }
+        }
+    }
+
+    /// Without its place a vertex would be at the origin.
+    void check_vertices() const {
+        for (const Element& element : elements_) {
+            const auto has = [&](std::string_view axis) {
+                return std::any_of(element.properties.begin(), element.properties.end(),
+                                   [&](const Property& one) { return one.name == axis && !one.count; });
+            };
+            const bool has_place = element.properties.empty() || (has("x") && has("y") && has("z"));
+            if (element.name == "vertex" && element.count > 0 && !has_place) {
+                fail("the properties x, y and z of the vertices before it", "end_header");
             }
         }
     }
@@ -221,7 +226,7 @@ private:
 
     void read_element(const std::vector<std::string_view>& words, std::string_view line) {
         const std::optional<int> count = parse_whole(words[2]);
-        if (!count || *count < 0 || std::cmp_greater(*count, k_max_mesh_items)) {
+        if (!count || *count < 0 || std::cmp_greater(*count, k_most_items)) {
             fail("a number of elements up to 67108864", line);
         }
         if (std::any_of(elements_.begin(), elements_.end(), [&](const Element& one) { return one.name == words[1]; })) {
@@ -260,8 +265,7 @@ private:
     }
 
     static void skip(const Property& property, Body& body) {
-        const std::size_t values =
-            property.count ? body.whole(*property.count, "a number of values", k_max_mesh_items) : 1;
+        const std::size_t values = property.count ? body.whole(*property.count, "a number of values", k_most_items) : 1;
         for (std::size_t i = 0; i < values; ++i) {
             static_cast<void>(body.value(property.kind, "a value of " + raysteps::quoted(property.name)));
         }
@@ -304,7 +308,7 @@ private:
     }
 
     void read_face(const Property& property, Body& body) {
-        const std::size_t corners = body.whole(*property.count, "a number of corners", k_max_mesh_items);
+        const std::size_t corners = body.whole(*property.count, "a number of corners", k_most_items);
         if (mesh_.positions.empty() || corners < 3) {
             body.fail("three corners or more, after the vertices", std::to_string(corners));
         }

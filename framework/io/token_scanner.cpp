@@ -11,8 +11,6 @@
 namespace raysteps {
 namespace {
 
-constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
-
 bool ends_line(char character) { return character == '\n' || character == '\r'; }
 
 // Nearly all characters of a scene are above the space, and take one comparison.
@@ -38,6 +36,19 @@ std::string full_name(std::string_view part, std::string_view what) {
 
 bool is_blank(char character) {
     return character == ' ' || character == '\t' || character == '\v' || character == '\f' || ends_line(character);
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+    std::vector<std::string_view> words;
+    for (auto at = text.begin(); at != text.end();) {
+        const auto begin = std::find_if_not(at, text.end(), is_blank);
+        at = std::find_if(begin, text.end(), is_blank);
+        if (begin != at) {
+            words.push_back(
+                text.substr(static_cast<std::size_t>(begin - text.begin()), static_cast<std::size_t>(at - begin)));
+        }
+    }
+    return words;
 }
 
 TokenScanner::TokenScanner(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {

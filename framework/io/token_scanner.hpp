@@ -5,10 +5,14 @@
 #include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/color.hpp"
 
 namespace raysteps {
+
+/// Of UTF-8: some editors put it before a text.
+inline constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
 
 /// A piece of the text and where it starts. An empty token is the end of the text.
 struct Token {
@@ -52,6 +56,9 @@ private:
 
 /// Space, tab, CR, LF, vertical tab or form feed, whatever the locale.
 [[nodiscard]] bool is_blank(char character);
+
+/// What stands between blanks, without a look at comments.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);
 
 /// Coordinates beyond this have no place in float arithmetic: their products overflow.
 inline constexpr float k_farthest = 1e9F;
