@@ -39,6 +39,9 @@ bool AsyncInspector::idle_within(std::chrono::milliseconds timeout) {
 }
 
 std::string AsyncInspector::inspected(const Question& question) {
+    const auto refusal = [](const std::string& why) {
+        return "raysteps view: this pixel cannot be inspected: " + why + "\n";
+    };
     try {
         const RenderRequest& request = question.request;
         const Accelerator& accelerator = accelerators_.get(request.acceleration, request.step.step);
@@ -49,7 +52,9 @@ std::string AsyncInspector::inspected(const Question& question) {
             question.camera_moved ? "# the camera as it was moved\n" + write_viewpoint(request.camera) : "";
         return camera + inspect_text(record);
     } catch (const std::exception& error) {
-        return "raysteps view: this pixel cannot be inspected: " + std::string(error.what()) + "\n";
+        return refusal(error.what());
+    } catch (...) {  // a student's function may throw anything
+        return refusal("something was thrown that is no std::exception");
     }
 }
 

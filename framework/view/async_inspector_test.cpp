@@ -41,6 +41,17 @@ std::string inspected(const Scene& scene, const Pixel& pixel) {
     return inspect_text(record);
 }
 
+/// A surface that no ray survives.
+class Thrower final : public Surface {
+public:
+    Thrower() : Surface(Fill{}) {}
+    [[nodiscard]] std::optional<HitRecord> intersect(const Ray& /*ray*/) const override {
+        throw 42;  // NOLINT(bugprone-std-exception-baseclass): as a student's function may
+    }
+    [[nodiscard]] Box bounds() const override { return {glm::vec3(-1.0F), glm::vec3(1.0F)}; }
+    [[nodiscard]] bool overlaps(const Box& /*box*/) const override { return true; }
+};
+
 }  // namespace
 
 TEST_CASE("A click tells what inspect tells, for the camera of the moment", "[view]") {
@@ -74,4 +85,16 @@ TEST_CASE("Of the pixels that are clicked meanwhile the last one is told", "[vie
     CHECK(first == inspected(balls_on_floor(), {0, 20}));
     CHECK(last == inspected(balls_on_floor(), {9, 20}));
     CHECK(inspector.is_idle());
+}
+
+TEST_CASE("A pixel at which a step throws anything is a message", "[view]") {
+    Scene scene;
+    scene.add(std::make_unique<Thrower>());
+    AcceleratorCache accelerators(scene);
+    AsyncInspector inspector(scene, accelerators, "small.nff");
+    RenderRequest request = shot_of(scene.camera);
+    request.acceleration = Acceleration::none;
+    inspector.ask(request, {scene.camera.width / 2, scene.camera.height / 2}, false);
+    CHECK(next_answer(inspector) ==
+          "raysteps view: this pixel cannot be inspected: something was thrown that is no std::exception\n");
 }

@@ -14,7 +14,7 @@ struct Point {
 class Layout {
 public:
     Layout() = default;
-    /// most_scale: a limit, as for a screenshot, which wants pixel for pixel
+    /// max_scale: a limit, as for a screenshot, which wants pixel for pixel
     Layout(int width, int height, int window_width, int window_height, float max_scale)
         : width_(width), height_(height), window_width_(window_width), window_height_(window_height) {
         const float fit = std::min(static_cast<float>(window_width) / static_cast<float>(width),

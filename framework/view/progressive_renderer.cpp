@@ -104,6 +104,8 @@ void ProgressiveRenderer::work() {
             trace(request);
         } catch (const std::exception& error) {
             problem = error.what();
+        } catch (...) {  // a student's function may throw anything
+            problem = "something was thrown that is no std::exception";
         }
         lock.lock();
         if (!another_wanted_) {

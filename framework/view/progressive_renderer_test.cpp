@@ -15,17 +15,6 @@ using namespace raysteps::testing;
 
 namespace {
 
-/// A surface that no ray survives.
-class Thrower final : public Surface {
-public:
-    Thrower() : Surface(Fill{}) {}
-    [[nodiscard]] std::optional<HitRecord> intersect(const Ray& /*ray*/) const override {
-        throw std::runtime_error("out of steps");
-    }
-    [[nodiscard]] Box bounds() const override { return {}; }
-    [[nodiscard]] bool overlaps(const Box& /*box*/) const override { return true; }
-};
-
 RenderRequest shot_of(const Scene& scene, int step) {
     RenderRequest request;
     request.camera = scene.camera;
@@ -50,6 +39,38 @@ Image raytraced(const Scene& scene, int step) {
     RenderOptions options;
     options.step.step = step;
     return render(scene, options).image;
+}
+
+/// A surface that no ray survives.
+template <typename Thrown>
+class Thrower final : public Surface {
+public:
+    explicit Thrower(Thrown thrown) : Surface(Fill{}), thrown_(thrown) {}
+    [[nodiscard]] std::optional<HitRecord> intersect(const Ray& /*ray*/) const override {
+        throw thrown_;  // NOLINT(bugprone-std-exception-baseclass): as a student's function may
+    }
+    [[nodiscard]] Box bounds() const override { return {}; }
+    [[nodiscard]] bool overlaps(const Box& /*box*/) const override { return true; }
+
+private:
+    Thrown thrown_;
+};
+
+/// What is said of a picture of it; the next picture is made all the same.
+template <typename Thrown>
+std::string problem_of(Thrown thrown) {
+    Scene scene;
+    scene.camera.width = 20;
+    scene.camera.height = 20;
+    scene.add(std::make_unique<Thrower<Thrown>>(thrown));
+    AcceleratorCache accelerators(scene);
+    ProgressiveRenderer progressive(scene, accelerators, 2);
+    progressive.start(shot_of(scene, 2));
+    std::string problem = finish(progressive).problem;
+    progressive.start(shot_of(scene, 1));
+    CHECK(finish(progressive).finished);
+    CHECK(progressive.stop(std::chrono::seconds(60)));
+    return problem;
 }
 
 }  // namespace
@@ -146,15 +167,6 @@ TEST_CASE("Of many pictures that are wanted the last one is made", "[view]") {
 }
 
 TEST_CASE("A step that throws is a message, and the next picture is made", "[view]") {
-    Scene scene;
-    scene.camera.width = 20;
-    scene.camera.height = 20;
-    scene.add(std::make_unique<Thrower>());
-    AcceleratorCache accelerators(scene);
-    ProgressiveRenderer progressive(scene, accelerators, 2);
-    progressive.start(shot_of(scene, 2));
-    CHECK(finish(progressive).problem == "out of steps");
-    progressive.start(shot_of(scene, 1));
-    CHECK(finish(progressive).finished);
-    CHECK(progressive.stop(std::chrono::seconds(60)));
+    CHECK(problem_of(std::runtime_error("out of steps")) == "out of steps");
+    CHECK(problem_of(42) == "something was thrown that is no std::exception");
 }

@@ -80,7 +80,8 @@ private:
 
     [[nodiscard]] bool is_idle() const {
         const RenderStatus status = renderer_.status();
-        return status.finished && status.version == shown_ && !redraw_ && inspector_.is_idle();
+        const bool at_rest = status.finished || !status.problem.empty();
+        return at_rest && status.version == shown_ && !redraw_ && inspector_.is_idle();
     }
 
     void handle(const Controls::Events& events) {
