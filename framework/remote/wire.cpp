@@ -47,6 +47,7 @@ std::size_t Wire::current() {
     if (t_has_fibers) {
         return running_;
     }
+    const std::unique_lock lock = guard();  // several threads of a student's may come for the first time at once
     const auto [place, is_new] = visitors_.try_emplace(std::this_thread::get_id(), k_first_visitor + visitors_.size());
     if (is_new) {
         conversation(place->second).visitor = true;

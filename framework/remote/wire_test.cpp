@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 #include <array>
+#include <atomic>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -108,6 +110,25 @@ TEST_CASE("many conversations at once do not mix their answers", "[remote]") {
     for (int i = 0; i < 200; ++i) {
         CHECK(answers.at(static_cast<std::size_t>(i)) == i % 20 * (i % 20 + 1) / 2);
     }
+}
+
+TEST_CASE("threads of a student's have conversations of their own", "[remote]") {
+    Wire wire(Wire::End::box, {-1, -1}, sum_up, hang_up);
+    std::array<std::size_t, 16> numbers{};
+    std::atomic<int> waiting{16};
+    std::vector<std::thread> threads;
+    for (std::size_t& number : numbers) {
+        threads.emplace_back([&] {
+            for (--waiting; waiting > 0;) {  // all come for the first time at once
+            }
+            number = wire.current();
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    CHECK(std::set<std::size_t>(numbers.begin(), numbers.end()).size() == numbers.size());
+    CHECK(wire.current() == 0);
 }
 
 TEST_CASE("an exception leaves the conversations, and each has counters of its own", "[remote]") {
