@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "bench/foreign_hit.hpp"

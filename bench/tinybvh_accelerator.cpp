@@ -2,6 +2,8 @@
 #define TINYBVH_IMPLEMENTATION
 #include <tiny_bvh.h>
 
+#include <array>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <vector>

@@ -25,7 +25,7 @@ if(NOT TARGET Catch2::Catch2)
     FetchContent_MakeAvailable(Catch2)
 endif()
 
-# One header, for PNG.
+# Two headers: stb_image for textures, stb_image_write for PNG.
 if(NOT TARGET stb::stb)
     find_path(RAYSTEPS_STB_FOLDER stb_image_write.h PATH_SUFFIXES stb)
     if(NOT RAYSTEPS_STB_FOLDER)

@@ -1,5 +1,5 @@
-# GLM, Catch2 2 and stb_image_write are headers only, so a compiler for another system can take those of this one. They are copied, for
-# beside them lie the headers of this system's C library, which fit no other.
+# GLM, Catch2 2 and stb are headers only, so a compiler for another system can take those of this one. They are copied,
+# for beside them lie the headers of this system's C library, which fit no other.
 function(raysteps_take_headers library folder header)
     find_path(found "${folder}/${header}" PATHS /usr/include /usr/local/include /opt/homebrew/include
               NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH NO_CACHE)

@@ -14,8 +14,8 @@ namespace raysteps {
 struct SurfaceInfo {
     std::size_t order = 0;
     std::string kind;               ///< sphere, hollow-sphere, triangle, smooth-triangle, cone, disk or other
-    std::vector<glm::vec3> points;  ///< a sphere's centre, a triangle's corners, the ends of a cone
-    std::vector<float> radii;       ///< of a sphere, or of the ends of a cone
+    std::vector<glm::vec3> points;  ///< the centre of a sphere or disk, a triangle's corners, the ends of a cone
+    std::vector<float> radii;       ///< of a sphere or disk, or of the ends of a cone
     Color color = k_black;
 };
 

@@ -9,8 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "core/ray.hpp"
 #include "core/rounding.hpp"
