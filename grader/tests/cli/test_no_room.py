@@ -50,6 +50,21 @@ def test_a_full_disk_is_told(number: int, capsys: pytest.CaptureFixture[str]) ->
     assert said.endswith("; make room and type it again\n")
 
 
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [
+        (errno.EROFS, "the disk is read-only; it needs a place where it can write, such as a copy of the kit"),
+        (errno.EACCES, "no permission; what it needs there must be open to you"),
+        (errno.EISDIR, "it is a folder; expected a file there"),
+        (errno.ENOTDIR, "a part of the path is a file, not a folder; expected a folder there"),
+        (errno.EEXIST, "something is there already; expected a folder there, or nothing yet"),
+    ],
+)
+def test_a_place_that_does_not_serve_is_told(number: int, said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code_of(OSError(number, os.strerror(number), "/kit/build")) == 2
+    assert capsys.readouterr().err == f"raysteps: /kit/build: {said}\n"
+
+
 def test_a_full_disk_leaves_the_old_file_and_no_half(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_bytes(tmp_path / "results.json", b"old")
     opened: Callable[..., object] = os.fdopen

@@ -1,8 +1,10 @@
 """What `watch` learns of a step at once, with real programs."""
 
 import dataclasses
+import errno
 import io
 import json
+import signal
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -175,6 +177,20 @@ def test_the_worker_does_a_job(project: Project, steps: list[Step]) -> None:
     assert last["complete"]
     assert set(last["result"]) == {field.name for field in dataclasses.fields(StepResult)}
     assert last["out"] == str(project.build / "watch")
+
+
+def test_a_worker_says_where_it_cannot_write(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def locked(*_: object) -> None:
+        raise OSError(errno.EROFS, "Read-only file system", "/kit/build")
+
+    monkeypatch.setattr(worker, "look", locked)
+    job = json.dumps({"kind": "look", "root": str(tmp_path), "step": _ID})
+    monkeypatch.setattr("sys.stdin", io.StringIO(job + "\n"))
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    assert worker.main() == 0
+    assert json.loads(capsys.readouterr().out)["error"] == "/kit/build: the disk is read-only"
 
 
 def test_a_worker_without_a_job_ends() -> None:

@@ -1,6 +1,7 @@
 """The commands of ./raysteps, and how they end. Each has a module of its own, imported when the command is typed."""
 
 import argparse
+import errno
 import gc
 import os
 import re
@@ -192,6 +193,16 @@ _NO_TERMINAL = 10_000  # columns
 _SIGPIPE = 128 + 13  # as a shell has it of programs that a closed pipe ends
 
 
+# What is expected of a place that a person may have named, or where the kit lies.
+_EXPECTED: dict[type[OSError], str] = {
+    IsADirectoryError: "expected a file there",
+    NotADirectoryError: "expected a folder there",
+    FileExistsError: "expected a folder there, or nothing yet",
+    PermissionError: "what it needs there must be open to you",
+}
+_TO_WRITE = "it needs a place where it can write, such as a copy of the kit"
+
+
 class _ReaderIsGone(BrokenPipeError):
     """Nobody reads what is printed."""
 
@@ -240,12 +251,11 @@ def exit_code_of(error: BaseException) -> int:
         where = reason_and_place(error)
         _tell(f"something cannot be written: {where}; make room and type it again")
         return GraderFault.exit_code
-    if isinstance(error, IsADirectoryError):
-        _tell(f"{reason_and_place(error)}; expected a file there")
-        return UsageError.exit_code
-    if isinstance(error, PermissionError) and error.filename is not None:  # else it is no file that could be opened
-        _tell(f"{reason_and_place(error)}; what it needs there must be open to you")
-        return UsageError.exit_code
+    if isinstance(error, OSError) and error.filename is not None:  # else it is no file that could be opened
+        expected = next((words for kind, words in _EXPECTED.items() if isinstance(error, kind)), "")
+        if expected or error.errno == errno.EROFS:
+            _tell(f"{reason_and_place(error)}; {expected or _TO_WRITE}")
+            return UsageError.exit_code
     if not isinstance(error, Exception) or os.environ.get("RAYSTEPS_DEBUG"):
         raise error
     Console(stderr=True).print_exception(max_frames=4)

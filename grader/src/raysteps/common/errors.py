@@ -27,6 +27,7 @@ class GraderFault(RaystepsError):
 
 _REASONS = {
     errno.ENOENT: "it is not there",
+    errno.EEXIST: "something is there already",
     errno.EISDIR: "it is a folder",
     errno.ENOTDIR: "a part of the path is a file, not a folder",
     errno.EACCES: "no permission",

@@ -16,7 +16,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import FrameType
 
-from raysteps.common.errors import RaystepsError, reason
+from raysteps.common.errors import RaystepsError, reason, reason_and_place
 from raysteps.common.platform import own_command
 from raysteps.common.process import end_what_runs
 from raysteps.course.manifest import Step, chosen_step, earlier
@@ -185,8 +185,8 @@ def main() -> int:
     job = json.loads(line)
     try:
         {"look": look, "check": check}[job["kind"]](Project(Path(job["root"])), job["step"])
-    except RaystepsError as error:
-        _tell(WorkerLine(error=str(error)))
+    except (RaystepsError, OSError) as error:
+        _tell(WorkerLine(error=reason_and_place(error)))
     return 0
 
 
