@@ -1,5 +1,8 @@
 """The command `compare`."""
 
+import struct
+import zlib
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +43,18 @@ def test_what_cannot_be_compared_is_told(tmp_path: Path, capsys: pytest.CaptureF
     assert main(["compare", mine, mine, "-o", str(tmp_path / "d.jpg")]) == 2
 
 
+def _with_nonsense(png: bytes) -> bytes:
+    """A chunk that is none, where the pixels should go on."""
+    pixels = b"IDAT" + png[41:43]
+    return png[:33] + b"\0\0\0\2" + pixels + struct.pack(">I", zlib.crc32(pixels)) + b"\0\0\0\4\1\2\3\4"
+
+
+def _huge(png: bytes) -> bytes:
+    """A header of more pixels than Pillow opens."""
+    header = b"IHDR" + struct.pack(">II", 60_000, 60_000) + png[24:29]
+    return png[:12] + header + struct.pack(">I", zlib.crc32(header)) + png[33:]
+
+
 _EXPECTED = "; expected a picture as `./raysteps render` writes it, .png or .ppm"
 
 
@@ -51,15 +66,20 @@ _EXPECTED = "; expected a picture as `./raysteps render` writes it, .png or .ppm
         (".", None, "is a folder"),
         ("text.png", b"no picture", "is no PNG, or only a part of one"),
         ("text.ppm", b"no picture", "the picture is not a binary PPM with 8-bit channels"),
-        ("part.png", b"a part", "is no PNG, or only a part of one"),
+        ("part.png", lambda png: png[:60], "is no PNG, or only a part of one"),
+        ("chunk.png", _with_nonsense, "is no PNG, or only a part of one"),
+        ("huge.png", _huge, "is no PNG, or only a part of one"),
     ],
 )
 def test_what_is_no_picture_is_told_in_plain_words(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, content: bytes | None, said: str
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    name: str,
+    content: bytes | Callable[[bytes], bytes] | None,
+    said: str,
 ) -> None:
     mine = _picture(tmp_path / "a.png")
     if content is not None:
-        data = Path(mine).read_bytes()[:60] if name == "part.png" else content
-        (tmp_path / name).write_bytes(data)
+        (tmp_path / name).write_bytes(content(Path(mine).read_bytes()) if callable(content) else content)
     assert main(["compare", mine, str(tmp_path / name)]) == 2
     assert capsys.readouterr().err == f"raysteps: {tmp_path / name}{_EXPECTED}\n".replace(";", f": {said};", 1)

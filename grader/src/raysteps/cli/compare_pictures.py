@@ -43,7 +43,7 @@ def _read(path: Path) -> Pixels:
         return (read_ppm if path.suffix.lower() == ".ppm" else read_png)(path)
     except PictureError as error:
         raise UsageError(f"{path}: {error}; {_EXPECTED}") from error
-    except (OSError, ValueError, SyntaxError) as error:  # in the words of a library
+    except (OSError, ValueError) as error:  # in the words of a library
         raise UsageError(f"{path}: is no PNG, or only a part of one; {_EXPECTED}") from error
 
 

@@ -76,7 +76,7 @@ def _read(folder: Path, place: str, shrinking: int) -> Image.Image | None:
                 return None
             width, height = (max(1, length // shrinking) for length in picture.size)
             pixels = picture.convert("RGB")
-    except (OSError, ValueError, Image.DecompressionBombError):
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
         return None
     if shrinking == 1 and height < _SMALL:
         factor = -(-_SMALL // height)

@@ -57,9 +57,12 @@ def parse_ppm(data: bytes) -> Pixels:
 
 
 def read_png(path: Path) -> Pixels:
-    """Without transparency. OSError or ValueError where it is no PNG."""
-    with Image.open(path, formats=["PNG"]) as picture:
-        return np.asarray(picture.convert("RGB"), dtype=np.uint8)
+    """Without transparency. OSError or ValueError where it is no PNG, or only a part of one."""
+    try:
+        with Image.open(path, formats=["PNG"]) as picture:
+            return np.asarray(picture.convert("RGB"), dtype=np.uint8)
+    except (SyntaxError, Image.DecompressionBombError) as error:  # which Pillow raises, too
+        raise ValueError(str(error)) from error
 
 
 def write_png(pixels: Pixels, path: Path) -> None:
@@ -104,7 +107,7 @@ def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
     """The column and the row; none where the pictures cannot be compared or are the same."""
     try:
         one, other = read_png(mine), read_png(reference)
-    except OSError:
+    except (OSError, ValueError):
         return None
     if one.shape != other.shape:
         return None

@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from PIL import Image
 
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
 from raysteps.common.text import number
 from raysteps.course.manifest import Step
 from raysteps.course.project import here
+from raysteps.images.compare import read_png
 from raysteps.report.page import (
     COMPARE_SCRIPTS,
     COMPARE_STYLES,
@@ -113,8 +113,8 @@ def _flip_of(folder: Path, image: ImageResult) -> str | None:
         return None
     try:
         names = (image.reference or "", image.mine)
-        pair = [np.asarray(Image.open(folder / name).convert("RGB")) for name in names]
-    except OSError:
+        pair = [read_png(folder / name) for name in names]
+    except (OSError, ValueError):
         return None
     if pair[0].shape != pair[1].shape:
         return None
