@@ -5,6 +5,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from class_fakes import close_to_looks
 
 from raysteps.classroom.entries import Shard, list_entries, name_entries, newest_time, read_shard, safe_name, stem
 from raysteps.common.errors import UsageError
@@ -127,13 +128,16 @@ def test_shards_that_make_no_sense(text: str) -> None:
         read_shard(text)
 
 
-def test_time_of_a_folder_is_that_of_its_newest_file(tmp_path: Path) -> None:
+def test_time_of_a_folder_is_that_of_its_newest_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = tmp_path / "ann"
     (folder / "steps").mkdir(parents=True)
     for name, when in (("a.cpp", 1_000_000), ("steps/b.cpp", 2_000_000), (".DS_Store", 9_000_000)):
         (folder / name).touch()
         os.utime(folder / name, (when, when))
     (folder / "link").symlink_to("/etc/passwd")
+    (folder / "closed").mkdir()
+    (folder / "closed/c.cpp").touch()
+    close_to_looks(folder / "closed", monkeypatch)
     assert newest_time(folder) == "1970-01-24T03:33:20+00:00"
     (tmp_path / "empty").mkdir()
     assert newest_time(tmp_path / "empty") == ""

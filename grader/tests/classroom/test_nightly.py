@@ -15,7 +15,7 @@ from typing import Any
 from zoneinfo import ZoneInfo
 
 import pytest
-from class_fakes import FIRST, grade_class, write_entry
+from class_fakes import FIRST, close_to_looks, grade_class, write_entry
 from fake_grader import FAKE
 from rich.console import Console
 
@@ -255,6 +255,16 @@ def test_a_signature_changes_with_whatever_is_written(tmp_path: Path) -> None:
     seen.add(signature(entry))
     assert len(seen) == 4
     assert signature(tmp_path / "gone") == ""
+
+
+def test_a_signature_passes_over_what_is_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else the entry would look as if it were uploaded for ever."""
+    entry = write_entry(tmp_path, "ann", "// one\n")
+    close_to_looks(entry / "steps", monkeypatch)
+    before = signature(entry)
+    assert before == signature(entry) != ""
+    (entry / "more.cpp").touch()
+    assert signature(entry) != before
 
 
 def test_what_cannot_be_read_is_told_and_takes_nothing(course: Course) -> None:

@@ -1,11 +1,14 @@
 """The command line of `grade-class` with a fake grader, and what it is given."""
 
 import argparse
+import errno
+import os
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from fake_grader import FAKE
 from rich.console import Console
 
@@ -42,6 +45,18 @@ def grade_class(*words: str | Path | int, console: Console | None = None) -> int
     add_arguments(parser)
     arguments = parser.parse_args([str(word) for word in words])
     return run(here(), arguments, console or Console(width=150), grader=FAKE)
+
+
+def close_to_looks(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As without the x of its mode, which root does not feel: it tells names, and nothing of what bears them."""
+    lstat = Path.lstat
+
+    def look(path: Path) -> os.stat_result:
+        if path.parent == folder:
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+        return lstat(path)
+
+    monkeypatch.setattr(Path, "lstat", look)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import stat
 import unicodedata
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -115,20 +116,23 @@ def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
     return Listing(_told_apart(entries, folder), ignored)
 
 
+def _children(folder: Path) -> Iterator[tuple[Path, os.stat_result]]:
+    """Without what cannot be read: it is not taken either."""
+    with suppress(OSError):
+        for child in folder.iterdir():
+            with suppress(OSError):
+                yield child, child.lstat()
+
+
 def _file_times(folder: Path) -> Iterator[float]:
     stack = [(folder, 1)]
     seen = 0
     while stack:
         current, depth = stack.pop()
-        try:
-            children = list(current.iterdir())
-        except OSError:
-            continue  # what cannot be read is not taken either
-        for child in children:
+        for child, status in _children(current):
             seen += 1
             if seen > _MAX_FILES:
                 return
-            status = child.lstat()
             if child.name.startswith(".") or (stat.S_ISDIR(status.st_mode) and is_out_of_sight((child.name,))):
                 continue
             if stat.S_ISREG(status.st_mode):

@@ -123,24 +123,27 @@ _MAX_FILES = 20_000
 
 def signature(path: Path) -> str:
     """Changes with everything that is written into an entry; nothing where it is gone."""
-    digest = hashlib.sha256()
-    seen = 0
-    try:
-        digest.update(repr(_facts(path)).encode())
-        for folder, folders, files in os.walk(path):
-            folders.sort()
-            for name in sorted(files) + folders:
-                digest.update(f"{os.fsencode(os.path.join(folder, name))!r} {_facts(Path(folder, name))}".encode())  # noqa: PTH118
-                seen += 1
-            if seen > _MAX_FILES:
-                break
-    except OSError:
+    facts = _facts(path)
+    if not facts:
         return ""
+    digest = hashlib.sha256(repr(facts).encode())
+    seen = 0
+    for folder, folders, files in os.walk(path):
+        folders.sort()
+        for name in sorted(files) + folders:
+            digest.update(f"{os.fsencode(os.path.join(folder, name))!r} {_facts(Path(folder, name))}".encode())  # noqa: PTH118
+            seen += 1
+        if seen > _MAX_FILES:
+            break
     return digest.hexdigest()
 
 
 def _facts(path: Path) -> tuple[int, ...]:
-    found = path.lstat()
+    """None where it cannot be looked at, such as in a folder that is closed."""
+    try:
+        found = path.lstat()
+    except OSError:
+        return ()
     return (found.st_mode, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
 
 
