@@ -231,12 +231,13 @@ def test_no_engine_and_one_that_fails(project: Project, engines: Path, tmp_path:
 
 
 def test_only_the_files(project: Project, tmp_path: Path) -> None:
-    code, said = _typed(project, "--context", tmp_path / "context", "--base", "debian:trixie")
+    context = tmp_path / "my context"
+    code, said = _typed(project, "--context", context, "--base", "debian:trixie")
     assert code == 0
-    assert f"docker build --tag NAME {tmp_path / 'context'}" in said
-    assert dict(_instructions(tmp_path / "context"))["FROM"] == "debian:trixie"
+    assert f"docker build --tag NAME '{context}'" in said
+    assert dict(_instructions(context))["FROM"] == "debian:trixie"
     with pytest.raises(UsageError, match="new or an empty folder"):
-        _typed(project, "--context", tmp_path / "context")
+        _typed(project, "--context", context)
     with pytest.raises(UsageError, match="lies in the kit's own folder"):
         _typed(project, "--context", project.root / "context")
 

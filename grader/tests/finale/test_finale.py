@@ -264,12 +264,12 @@ def test_a_program_that_crashes_makes_no_page(
 def test_a_new_scene_never_takes_the_place_of_a_file(
     project: Project, tmp_path: Path, kit: BuiltKit, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    path = tmp_path / "mine.nff"
+    path = tmp_path / "my scene.nff"
     assert _run(project, "--new", str(path)) == 0
-    assert f"finale {path}" in capfd.readouterr().out
+    assert f"finale '{path}'\n" in capfd.readouterr().out
     assert path.read_bytes() == (project.scenes / "template.nff").read_bytes()
     path.write_text("changed")
-    with pytest.raises(UsageError, match=r"mine\.nff: is there already, and stays as it is"):
+    with pytest.raises(UsageError, match=r"my scene\.nff: is there already, and stays as it is"):
         _run(project, "--new", str(path))
     assert path.read_text() == "changed"
     with pytest.raises(UsageError, match=r"mine\.txt: expected a name that ends in \.nff"):

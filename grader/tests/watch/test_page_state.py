@@ -10,9 +10,10 @@ import pytest
 from watch_fakes import result_of
 
 from raysteps.cli.watch import on_a_desktop
+from raysteps.common.platform import kit_command
 from raysteps.course.manifest import Step
 from raysteps.images.compare import worst_pixel, write_png
-from raysteps.report.wording import inspect_command, typed
+from raysteps.report.wording import inspect_command
 from raysteps.watch.page_state import page_of, state_of
 from raysteps.watch.session import command_of_worst
 from raysteps.watch.step_view import StepView, verdict
@@ -96,7 +97,7 @@ def test_the_worst_pixel_and_its_command(steps: list[Step], tmp_path: Path) -> N
     view = _view(step, "// wrong", tmp_path)
     words = command_of_worst(view)
     assert words is not None
-    assert typed(words).endswith(" 5 3 --step 2 --view normals --size 160x120 --against reference")
+    assert kit_command(*words).endswith(" 5 3 --step 2 --view normals --size 160x120 --against reference")
     assert command_of_worst(_view(step, "", tmp_path)) is None
 
 

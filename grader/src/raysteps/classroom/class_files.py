@@ -18,6 +18,7 @@ from raysteps.classroom.review import reviewed
 from raysteps.common.documents import as_text, plain
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import forget_unfinished, write_bytes, write_if_changed, write_json
+from raysteps.common.platform import kit_command
 from raysteps.common.text import escape_formula, number
 from raysteps.course.manifest import Step
 from raysteps.grading.withhold import withhold
@@ -202,7 +203,7 @@ def refuse_unwritten(out: Path) -> None:
         if is_unwritten(connection):
             raise UsageError(
                 f"{out}: comments or points were changed after its files were made; "
-                f"`./raysteps desk {out} --write` makes them anew"
+                f"`{kit_command('desk', out, '--write')}` makes them anew"
             )
 
 

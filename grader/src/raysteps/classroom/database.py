@@ -15,6 +15,7 @@ from typing import Any, Literal
 from raysteps.classroom.jobs import Answer
 from raysteps.common.documents import plain
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.platform import quote_command
 from raysteps.common.text import name_order
 from raysteps.results.model import Feedback, Settings
 
@@ -197,8 +198,9 @@ _NO_ROOM = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
 
 
 def _way_back(path: Path) -> str:
+    recover = quote_command(["sqlite3", str(path), ".recover"])
     return (
-        f"nothing was graded anew. Put back a copy of it, or what `sqlite3 {path} .recover` saves of it; to grade the "
+        f"nothing was graded anew. Put back a copy of it, or what `{recover}` saves of it; to grade the "
         "whole class anew, name another --out"
     )
 

@@ -17,7 +17,7 @@ from raysteps.classroom.late_policy import late_policy_text, parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster
 from raysteps.common.documents import Amount
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.platform import own_command, quote_command
+from raysteps.common.platform import kit_command
 from raysteps.common.text import count, join_some
 from raysteps.course.manifest import Step, chosen_steps, read_steps
 from raysteps.course.project import Project
@@ -268,7 +268,7 @@ def make_plan(project: Project, options: ClassOptions, given: RunInputs | None =
     check_places(options.folder, options.out, resume=options.resume)
     steps = read_steps(project)
     if is_submission(options.folder, steps):
-        one = f"{own_command()} {quote_command(['grade', str(options.folder)])}"
+        one = kit_command("grade", options.folder)
         raise UsageError(f"{options.folder}: is one submission. Grade it with `{one}`, or name the folder around it")
     chosen = chosen_steps(project, options.only)
     given = read_run_inputs(options) if given is None else given

@@ -2,7 +2,6 @@
 
 import argparse
 import getpass
-import shlex
 import sys
 import threading
 from contextlib import ExitStack, closing, suppress
@@ -15,7 +14,7 @@ from raysteps.classroom.session import undisturbed
 from raysteps.cli.watch import on_a_desktop, port
 from raysteps.common.errors import UsageError
 from raysteps.common.local_server import end_as_interrupted, shown_in_browser
-from raysteps.common.platform import refuse_on_windows
+from raysteps.common.platform import kit_command, refuse_on_windows
 from raysteps.course.project import Project
 from raysteps.desk.desk import Desk, DeskServer
 from raysteps.desk.file_writer import check_folder, write_all
@@ -49,7 +48,7 @@ def _login() -> str:
 
 
 def _anew(out: Path) -> str:
-    return f"./raysteps desk {shlex.quote(str(out))} --write"
+    return kit_command("desk", out, "--write")
 
 
 def _busy(out: Path) -> str:

@@ -16,7 +16,7 @@ from raysteps.cli.render import build_program, run_raytrace, scene_there
 from raysteps.cli.todo_steps import built_trees, unfinished
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import usable_folder, write_out
-from raysteps.common.platform import own_command
+from raysteps.common.platform import kit_command, own_command
 from raysteps.common.text import clean, count, join_and
 from raysteps.common.text import size as shown_size
 from raysteps.course.manifest import Step, read_steps
@@ -98,9 +98,7 @@ def _new_scene(project: Project, path: Path, console: Console) -> int:
         raise UsageError(f"--new {path}: is there already, and stays as it is; expected a new name") from None
     except OSError as error:
         raise UsageError(f"--new {path}: cannot be written: {reason(error)}") from error
-    console.print(
-        f"Written: {escape(str(path))}. Change it, then: {own_command()} finale {escape(str(path))}", soft_wrap=True
-    )
+    console.print(escape(f"Written: {path}. Change it, then: {kit_command('finale', path)}"), soft_wrap=True)
     return 0
 
 

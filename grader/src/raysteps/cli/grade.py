@@ -13,7 +13,7 @@ from rich.console import Console
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
-from raysteps.common.platform import own_command, quote_command
+from raysteps.common.platform import kit_command
 from raysteps.common.text import join_some
 from raysteps.course.manifest import STEPS_HELP, chosen_steps, read_steps
 from raysteps.course.project import Project
@@ -82,8 +82,7 @@ def _refuse_a_class(project: Project, path: Path) -> None:
     """Of two submissions in one folder neither could be taken: the student would get nothing."""
     names = submissions_inside(path, read_steps(project))
     if names:
-        one = f"{own_command()} {quote_command(['grade', str(path / names[0])])}"
-        all_ = f"{own_command()} {quote_command(['grade-class', str(path), '--out', 'grades'])}"
+        one, all_ = kit_command("grade", path / names[0]), kit_command("grade-class", path, "--out", "grades")
         raise UsageError(
             f"{path}: holds several submissions, among them {join_some(names, _NAMED)}. "
             f"Grade one of them with `{one}`, or all with `{all_}`"
@@ -114,8 +113,7 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
     """Grades one submission in the sandbox, writes its results and prints what came out."""
 
     def again(case: str) -> str:
-        words = ["replay", short_path(out / case), "--submission", str(options.submission)]
-        return f"{own_command()} {quote_command(words)}"
+        return kit_command("replay", short_path(out / case), "--submission", options.submission)
 
     if options.out is not None:
         refuse_results_in(options.submission, options.out, ("pictures", CASES))

@@ -97,7 +97,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             return 1
         if not arguments.without_solutions:
             console.print("It holds the solutions, and the seed of course.toml: nobody else may read it.")
-        console.print(escape(f"To build it: docker build --tag NAME {arguments.context}"), highlight=False)
+        build = _shown(["docker", "build", "--tag", "NAME", str(arguments.context)])
+        console.print(escape(f"To build it: {build}"), highlight=False)
         return 0
     engine = _engine()
     with tempfile.TemporaryDirectory(prefix="raysteps-image-") as name:

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.platform import own_command, quote_command
+from raysteps.common.platform import kit_command
 from raysteps.common.text import count, join_and, tenths
 from raysteps.course.manifest import Step, choose, course_steps, of_other_parts, read_steps, steps_words
 from raysteps.course.project import Project
@@ -125,7 +125,7 @@ def _chosen(project: Project, names: list[str], console: Console) -> list[Step]:
 def line_to_grade(steps: list[Step], course: list[Step]) -> str:
     """The line for what comes back of a kit with these steps: the others were not given out, and count nothing."""
     only = ["--only", *steps_words(steps)] if steps != course else []
-    return f"{own_command()} {quote_command(['grade-class', 'submissions', '--out', 'grades', *only])}"
+    return kit_command("grade-class", "submissions", "--out", "grades", *only)
 
 
 def _page(project: Project, out: Path, arguments: argparse.Namespace) -> PageOptions | None:

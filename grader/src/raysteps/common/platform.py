@@ -32,6 +32,11 @@ def quote_command(words: Sequence[str]) -> str:
     return subprocess.list2cmdline(words)
 
 
+def kit_command(*words: str | Path) -> str:
+    """A command of the kit, as a person types it."""
+    return f"{own_command()} {quote_command([str(word) for word in words])}"
+
+
 def refuse_on_windows(what: str) -> None:
     """For what rests on how Linux and macOS run programs."""
     if is_windows():

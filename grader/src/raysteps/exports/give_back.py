@@ -12,6 +12,7 @@ from raysteps.classroom.class_document import read_class_document, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS
 from raysteps.classroom.entries import canvas_numbers, folded, moodle_identity, stem
 from raysteps.common.errors import UsageError, reason
+from raysteps.common.platform import kit_command
 from raysteps.common.text import clean, did_you_mean, join_and
 from raysteps.course.manifest import Step
 from raysteps.exports.autograders import Member, as_tar, as_zip
@@ -112,7 +113,7 @@ def read_deliveries(folder: Path, only: Sequence[str] = ()) -> Deliveries:
         if not why and results is None:
             why = f"no results.json in {home}: run grade-class with --resume, which writes it anew"
         elif not why and not (home / REPORT).is_file():
-            why = f"no {REPORT} in {home}: `./raysteps report {home}` makes it"
+            why = f"no {REPORT} in {home}: `{kit_command('report', home)}` makes it"
         if results is None or why:
             found.others.append(Undelivered(one.label, why))
         else:

@@ -11,9 +11,10 @@ from rich.status import Status
 from rich.table import Table
 from rich.text import Text
 
+from raysteps.common.platform import kit_command
 from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, SaidOnce, ended, inspect_worst, percent, total_words, typed
+from raysteps.report.wording import HOW_SURE, SaidOnce, ended, inspect_worst, percent, total_words
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.results.statuses import STATUS_WORDS
 from raysteps.toolchain.kit_artifacts import ProgressCallback
@@ -189,7 +190,7 @@ def print_details(
                 _print_image(console, image, out, once)
                 worst = inspect_worst(known[result.id], image, out) if own else None
                 if worst is not None:
-                    console.print(f"{' ' * _INDENT}{'worst':<{_LABEL}}{escape(typed(worst))}", soft_wrap=True)
+                    console.print(f"{' ' * _INDENT}{'worst':<{_LABEL}}{escape(kit_command(*worst))}", soft_wrap=True)
         if known[result.id].is_about_a_tree:
             _print_tier(console, result, known[result.id])
         for item in result.hidden:

@@ -1,10 +1,9 @@
-"""Commands that a report gives its reader to copy."""
+"""Words of a report: commands for its reader to copy, points, and what people said."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
-from raysteps.common import platform as systems
-from raysteps.common.platform import own_command
+from raysteps.common.platform import kit_command, own_command, quote_command
 from raysteps.common.text import number, tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import here
@@ -34,12 +33,7 @@ def watch_command(step_id: str) -> str:
 
 def replay_command(case: str) -> str:
     """Asks a case again; its file lies beside the report."""
-    return f"{own_command()} replay {systems.quote_command([case])}"
-
-
-def typed(words: Sequence[str]) -> str:
-    """As a person types it."""
-    return f"{own_command()} {systems.quote_command(words)}"
+    return kit_command("replay", case)
 
 
 def inspect_options(args: Sequence[str]) -> list[str]:
@@ -60,8 +54,9 @@ def inspect_command(name: str, step: Step | None, *, has_reference: bool) -> str
     case = next((case for case in step.images if case.name == name), None) if step is not None else None
     if case is None or "{" in case.scene:
         return None
-    start = systems.quote_command([case.scene])
-    return typed(_inspect_words(case, 0, 0, has_reference)).replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
+    start = quote_command([case.scene])
+    line = kit_command(*_inspect_words(case, 0, 0, has_reference))
+    return line.replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
 
 
 def inspect_worst(step: Step, image: ImageResult, out: Path) -> list[str] | None:

@@ -9,12 +9,13 @@ from datetime import datetime
 from pathlib import Path
 
 from raysteps.common.errors import RaystepsError, reason_and_place
+from raysteps.common.platform import kit_command
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.progress.hints import Hints, no_other
 from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
 from raysteps.progress.standing import next_of, own_source, print_list, shown, standings
-from raysteps.report.wording import inspect_worst, typed
+from raysteps.report.wording import inspect_worst
 from raysteps.submission.entries import RejectedFile
 from raysteps.watch.events import (
     ChangeNoticed,
@@ -129,7 +130,7 @@ class Actions:
         if words is None:
             session.showing.line("No picture is wrong (or there is none yet): nothing to look into.")
         else:
-            session.showing.command(typed(words), "bold")
+            session.showing.command(kit_command(*words), "bold")
             session.inspection.start(words)
 
     def _reset(self) -> None:
