@@ -97,13 +97,13 @@ def inspect(program: Path, options: InspectOptions, *, seconds: float = _SECONDS
     return InspectResult(printable(outcome.stdout), record, said, problem)
 
 
-def last_good_step(program: Path, options: InspectOptions, steps: Sequence[Step], *, seconds: float = 10) -> int:
+def last_good_step(program: Path, options: InspectOptions, steps: Sequence[Step]) -> int:
     """Up to which step the program comes to its end; 0: not even in the first."""
     good = 0
     for step in steps:
         if step.index >= options.step:
             break
-        outcome = process.run([program, *options.of_step(step).words(), "--quiet"], seconds=seconds)
+        outcome = process.run([program, *options.of_step(step).words(), "--quiet"], seconds=10)
         if outcome.code != 0 or outcome.timed_out:
             break
         good = step.index

@@ -35,14 +35,13 @@ def as_code(text: str, limit: int = 60_000) -> str:
     return f"{fence}text\n{said}\n{fence}\n"
 
 
-def wrapped(text: str, width: int = 96) -> str:
+def wrapped(text: str) -> str:
     """For places that show lines as they are, and cut off what is longer; a line goes on where it was indented to."""
     lines = []
     for line in text.splitlines():
         indent = line[: len(line) - len(line.lstrip())] + ("    " if line.lstrip().startswith("- ") else "")
-        lines += textwrap.wrap(
-            line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
-        ) or [""]
+        parts = textwrap.wrap(line, 96, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        lines += parts or [""]
     return "\n".join(lines)
 
 

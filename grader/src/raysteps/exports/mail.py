@@ -54,10 +54,10 @@ def plain_address(text: str) -> str | None:
     return f"{local}@{host}"
 
 
-def header_text(text: str, limit: int = 120) -> str:
+def header_text(text: str) -> str:
     """One line that is what it looks like: no line break, no sign that turns the writing direction, nothing that a
     mail program would decode."""
-    return one_line(text, limit).replace(_ENCODED, "= ?")
+    return one_line(text, 120).replace(_ENCODED, "= ?")
 
 
 def mailbox_of(text: str, option: str) -> Address:

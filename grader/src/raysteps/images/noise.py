@@ -43,10 +43,10 @@ class Estimates:
         """Columns and rows."""
         return self.mean.shape[1], self.mean.shape[0]
 
-    def in_parts(self, side: int = PART) -> "Estimates":
-        """Of parts of side x side pixels, smaller at the right and below. Samples of different pixels have nothing to
+    def in_parts(self) -> "Estimates":
+        """Of parts of PART x PART pixels, smaller at the right and below. Samples of different pixels have nothing to
         do with each other, so that variances add up."""
-        rows, columns = (np.arange(0, length, side) for length in self.mean.shape[:2])
+        rows, columns = (np.arange(0, length, PART) for length in self.mean.shape[:2])
 
         def sums(values: Light) -> Light:
             return np.asarray(np.add.reduceat(np.add.reduceat(values, rows, axis=0), columns, axis=1))
@@ -185,12 +185,8 @@ def compare_estimates(
     return NoisyComparison(True, 0.0, "", deviations)
 
 
-def noise_ratio(mine: Estimates, parts: Estimates, factor: float) -> float:
-    """The variance of the whole picture beside the reference's, for as many samples."""
-    return _ratio(_whole(mine.in_parts(), mine.size), _whole(parts, mine.size), factor)
-
-
 def _ratio(all_mine: Estimates, all_right: Estimates, factor: float) -> float:
+    """The variance of the whole picture beside the reference's, for as many samples."""
     own, right = float(all_mine.variance.sum()), float(all_right.variance.sum())
     return own / (factor * right) if right > 0 else math.inf if own > 0 else 1.0
 

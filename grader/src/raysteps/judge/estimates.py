@@ -54,10 +54,10 @@ class Estimates:
         return float((self.error**2).max()) * max(self.cost, self.count) / largest**2 if largest else 0.0
 
 
-def plan(draw: RandomSource, bias: float, most: int = _MOST) -> Inputs:
+def plan(draw: RandomSource, bias: float) -> Inputs:
     """As many estimates as it takes to find a bias of that share of the mean."""
     seed = draw.whole(1, 1_000_000_000)
-    return {"seed": Whole(seed), "precision": Real(f32(bias / _PRECISION_OF_A_BIAS)), "most": Whole(most)}
+    return {"seed": Whole(seed), "precision": Real(f32(bias / _PRECISION_OF_A_BIAS)), "most": Whole(_MOST)}
 
 
 def read_estimates(tokens: TokenReader) -> Estimates:

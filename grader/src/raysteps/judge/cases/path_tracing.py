@@ -331,10 +331,6 @@ class _Light:
     many: Estimates | None
 
 
-def _is_for_many(inputs: Inputs) -> bool:
-    return whole_of(inputs, "most") > 0
-
-
 def _read_light(tokens: TokenReader) -> _Light:
     if tokens.word() == "often":
         many = read_estimates(tokens)

@@ -311,11 +311,11 @@ def _sample(draw: RandomSource, reach: float, light: Vector) -> PixelSample:
     return PixelSample((draw.real(-reach, reach), draw.real(-reach, reach)), light)
 
 
-def _samples(draw: RandomSource, filters: tuple[int, ...], size: int, *, brightest: float = 2.0) -> Inputs:
+def _samples(draw: RandomSource, filters: tuple[int, ...], size: int) -> Inputs:
     """The first one lies near the middle, so that the weights never add up to little."""
     kind = filters[draw.whole(0, len(filters) - 1)]
-    near = _sample(draw, 0.2, draw.color(0.1, brightest))
-    others = [_sample(draw, 0.98 * _REACH[kind], draw.color(0.1, brightest)) for _ in range(size - 1)]
+    near = _sample(draw, 0.2, draw.color(0.1, 2.0))
+    others = [_sample(draw, 0.98 * _REACH[kind], draw.color(0.1, 2.0)) for _ in range(size - 1)]
     return {"filter": _Filter(kind), "samples": PixelSamples((near, *others))}
 
 

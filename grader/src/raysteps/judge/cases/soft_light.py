@@ -484,9 +484,9 @@ def _disk(draw: RandomSource, low: float, high: float, size: int, *, axis: bool 
     }
 
 
-def _sphere(draw: RandomSource, reach: float, size: int, *, radius: float | None = None) -> Inputs:
+def _sphere(draw: RandomSource, reach: float, size: int) -> Inputs:
     """`reach`: the distance from the centre, in radii."""
-    center, radius = draw.point(4), radius or draw.real(0.2, 2)
+    center, radius = draw.point(4), draw.real(0.2, 2)
     from_ = rounded(add(center, draw.direction(), reach * radius))
     return {"center": Vec(center), "radius": Real(radius), "from": Vec(from_), **_draws(draw, size)}
 
