@@ -9,10 +9,10 @@ import uuid
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from typing import Literal
 
-from raysteps.classroom.database import ClassDatabase, Source, has_table, insert, now, transaction
+from raysteps.classroom.database import ClassDatabase, Source, has_table, insert, now, stamp, transaction
 from raysteps.common.documents import Amount, Count, Malformed, convert
 from raysteps.common.errors import UsageError
 from raysteps.common.text import number
@@ -76,11 +76,6 @@ def new_annotation(kind: Kind, author: str, **more: object) -> Annotation:
     return checked(convert(said, Annotation))
 
 
-def _moment(when: datetime) -> str:
-    """In a form in which the order of the texts is that of the moments."""
-    return when.astimezone(UTC).isoformat(timespec="microseconds")
-
-
 def checked(one: Annotation) -> Annotation:
     """Refuses what a person left out or mistyped."""
     try:
@@ -89,7 +84,7 @@ def checked(one: Annotation) -> Annotation:
         raise Malformed(f"at: expected a date and time, found '{one.at}'") from error
     if when.tzinfo is None:
         raise Malformed(f"at: expected a time zone, found '{one.at}'")
-    one = replace(one, at=_moment(when))
+    one = replace(one, at=stamp(when))
     whole = {"author": one.author, "at": one.at, "uid": one.uid, "subject": one.subject}
     for name, text in whole.items():
         if not text.strip() or len(text) > _MAX_NAME:
@@ -210,7 +205,7 @@ def annotate(database: ClassDatabase, name: str, one: Annotation, *, after: str)
                 f"{name}: {last.author} has changed this meanwhile; look at it as it is now, then change it again"
             )
         if last is not None and last.at >= one.at:  # a clock that is behind must not put the new one before it
-            one = replace(one, at=_moment(datetime.fromisoformat(last.at) + timedelta(microseconds=1)))
+            one = replace(one, at=stamp(datetime.fromisoformat(last.at) + timedelta(microseconds=1)))
         add_annotation(database, row["id"], one)
 
 

@@ -281,6 +281,11 @@ def now(timespec: str = "seconds") -> str:
     return datetime.now(UTC).isoformat(timespec=timespec)
 
 
+def stamp(moment: datetime) -> str:
+    """In a form in which the order of the texts is that of the moments."""
+    return moment.astimezone(UTC).isoformat(timespec="microseconds")
+
+
 def insert(connection: sqlite3.Connection, table: str, row: Mapping[str, Any], conflict: str = "") -> int:
     """The names are the code's own, the values are bound. `conflict` is an upsert clause. Returns the rows it made."""
     columns = ", ".join(row)

@@ -14,7 +14,7 @@ from typing import Literal
 from raysteps.classroom.annotations import annotated, last_said
 from raysteps.classroom.class_document import Standings, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS, write_submission
-from raysteps.classroom.database import ClassDatabase, insert, transaction
+from raysteps.classroom.database import ClassDatabase, insert, stamp, transaction
 from raysteps.classroom.entries import Entry, folded, load_entry
 from raysteps.classroom.jobs import Answer
 from raysteps.classroom.resubmissions import sources_digest
@@ -54,10 +54,6 @@ class Allowance:
 _A_DAY = timedelta(days=1)
 
 
-def _stamp(moment: datetime) -> str:
-    return moment.astimezone(UTC).isoformat(timespec="microseconds")
-
-
 @dataclass(frozen=True)
 class Given:
     """The last feedback on a submission."""
@@ -88,7 +84,7 @@ class FeedbackLog:
         """How many each has had. What a clock that was set back since has dated later counts as well."""
         rows = self._connection.execute(
             "SELECT student, sum(counts) AS amount FROM feedback_given WHERE given_at >= ? GROUP BY student",
-            (_stamp(since),),
+            (stamp(since),),
         )
         return Counter({row["student"]: row["amount"] for row in rows if row["student"] in students})
 
@@ -98,7 +94,7 @@ class FeedbackLog:
             (submission,) = self._connection.execute(query, (look.name,)).fetchone()
             row = {"submission": submission, "run": run, "work": look.work, "counts": look.counts, "said": said}
             for student in look.students:
-                mine = {**row, "student": student, "given_at": _stamp(now)}
+                mine = {**row, "student": student, "given_at": stamp(now)}
                 insert(self._connection, "feedback_given", mine, "ON CONFLICT DO NOTHING")
 
     def tells_now(self, name: str, run: int, said: str) -> None:
@@ -112,7 +108,7 @@ class FeedbackLog:
     def mend_clock(self, now: datetime) -> None:
         """What is dated more than a day ahead, by a clock that was wrong, counts from now: else it would count for as
         long as the clock was ahead."""
-        late = (_stamp(now), _stamp(now + _A_DAY))
+        late = (stamp(now), stamp(now + _A_DAY))
         self._connection.execute("UPDATE feedback_given SET given_at = ? WHERE given_at > ?", late)
 
 

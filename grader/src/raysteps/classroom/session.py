@@ -19,8 +19,9 @@ from raysteps.classroom.entries import Entry, load_entry
 from raysteps.classroom.jobs import GAVE_UP, Answer, Job
 from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan
-from raysteps.classroom.summary import ProgressMeter, first_line
+from raysteps.classroom.summary import ProgressMeter
 from raysteps.common.errors import GraderFault
+from raysteps.common.text import first_line
 from raysteps.report.wording import total_words
 from raysteps.results.model import Settings
 from raysteps.results.store import stored_results

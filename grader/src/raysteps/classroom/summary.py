@@ -12,7 +12,7 @@ from rich.table import Table
 
 from raysteps.classroom.class_files import SUBMISSIONS
 from raysteps.classroom.late_policy import BY_FILE
-from raysteps.common.text import count, number, printable, shorten, tenths
+from raysteps.common.text import count, first_line, number, tenths
 from raysteps.report.class_page import FILE as CLASS_PAGE
 from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent, StepPoints
 from raysteps.results.statuses import Status, in_words
@@ -25,11 +25,6 @@ def _span(seconds: float) -> str:
         return f"{max(1, round(seconds))} s"
     minutes = round(seconds / 60)
     return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"
-
-
-def first_line(text: str) -> str:
-    """Of a fault: the rest stands in fault.txt."""
-    return shorten(printable(text).split("\n", 1)[0], 300)
 
 
 class ProgressMeter:

@@ -41,6 +41,11 @@ def shorten(text: str, limit: int = 2000) -> str:
     return text if len(text) <= limit else text[: limit - 4] + " ..."
 
 
+def first_line(text: str) -> str:
+    """Of a fault: the rest stands in fault.txt."""
+    return shorten(printable(text).split("\n", 1)[0], 300)
+
+
 def clean(text: str, limit: int = 4000) -> str:
     """Without control characters, signs that nobody sees, and halves of surrogates."""
     return shorten(seen(text.encode("utf-8", "replace").decode("utf-8")), limit)

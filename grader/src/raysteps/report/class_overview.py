@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from raysteps.common.text import count, number, printable, shorten, tenths
+from raysteps.common.text import count, first_line, number, tenths
 from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent
 
 _BARS = 14
@@ -175,7 +175,7 @@ class HistogramDrawing:
     words: str
 
 
-def histogram(bars: Sequence[Bar], width: int, height: int, axis: str, noun: str = "submission") -> HistogramDrawing:
+def histogram(bars: Sequence[Bar], width: int, height: int, axis: str) -> HistogramDrawing:
     """The highest column reaches the top."""
     floor = height - _BELOW
     most = max((bar.count for bar in bars), default=0) or 1
@@ -197,7 +197,7 @@ def histogram(bars: Sequence[Bar], width: int, height: int, axis: str, noun: str
                 bar,
             )
         )
-    told = "; ".join(f"{bar.words}: {count(bar.count, noun)}" for bar in bars if bar.count)
+    told = "; ".join(f"{bar.words}: {count(bar.count, 'submission')}" for bar in bars if bar.count)
     return HistogramDrawing(width, height, floor, columns, axis, told or "nothing to show")
 
 
@@ -225,7 +225,6 @@ def divided(counts: Sequence[tuple[str, int]], width: float) -> list[Part]:
 # What needs a person's eye in a class, apart from the table.
 
 Weight = Literal["bad", "warn", "note"]
-_LONGEST = 300
 
 
 @dataclass(frozen=True)
@@ -248,10 +247,6 @@ class Group:
     items: Sequence[Item]
 
 
-def _first_line(text: str) -> str:
-    return shorten(printable(text).split("\n", 1)[0], _LONGEST)
-
-
 def _points(value: float | None) -> str:
     return "no points" if value is None else tenths(value)
 
@@ -269,7 +264,7 @@ class _Finder:
         return [(name, self._rows[name][1]) for name in names if name in self._rows]
 
     def faults(self) -> list[Item]:
-        return [self._item(name, [_first_line(one.fault)]) for name, one in self._of(self._document.faults)]
+        return [self._item(name, [first_line(one.fault)]) for name, one in self._of(self._document.faults)]
 
     def unreadable(self) -> list[Item]:
         return [self._item(name, one.why_unread) for name, one in self._of(self._document.unreadable)]
