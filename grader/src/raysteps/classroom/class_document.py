@@ -16,7 +16,7 @@ from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with
 from raysteps.classroom.resubmissions import Resubmissions
 from raysteps.classroom.review import review_of_nothing, reviewed
 from raysteps.common.documents import Malformed, checked, convert, parse
-from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.course.manifest import Step, read_manifests
 from raysteps.course.project import here
 from raysteps.results.class_model import (
@@ -291,6 +291,6 @@ def read_class_document(path: Path) -> ClassResults:
     try:
         return parse(path.read_bytes(), ClassResults, complete=True)
     except OSError as error:
-        raise UsageError(f"{path}: cannot be read: {error.strerror}") from error
+        raise UsageError(f"{path}: cannot be read: {reason(error)}") from error
     except Malformed as error:
         raise UsageError(f"{path}: is not a class.json of this kit: {error}") from error

@@ -39,5 +39,5 @@ class KitGrader:
 
 
 def make(*, require_sandbox: bool, say: ProgressCallback) -> KitGrader:
-    """As `graders.make_grader` expects it."""
+    """As `jobs.make_grader` expects it."""
     return KitGrader(require_sandbox=require_sandbox, say=say)

@@ -158,7 +158,7 @@ class Slot:
             return self._stopped
 
     def stop(self) -> None:
-        """Ends what is being graded; `grade` then raises Stopped."""
+        """Ends what is being graded; `grade` then raises JobStopped."""
         with self._lock:
             self._stopped = True
             if self._process is not None:

@@ -109,9 +109,9 @@ class _Worker:
         os._exit(1)
 
     def _answer_all(self, answers: BinaryIO) -> NoReturn:
-        desk = JobRunner(_say)
+        runner = JobRunner(_say)
         while True:
-            answer = desk.grade(from_line(self._jobs.get(), Job))
+            answer = runner.grade(from_line(self._jobs.get(), Job))
             answers.write(to_line(answer))
             answers.flush()
 

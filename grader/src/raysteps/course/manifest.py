@@ -58,7 +58,7 @@ class Step:
     seconds: float
     images: tuple[ImageCase, ...]
     memory_mb: int = 4096
-    more_limits: tuple[tuple[str, float], ...] = ()  # by name, see programs.limits
+    more_limits: tuple[tuple[str, float], ...] = ()  # by name, see toolchain.limits
     about: str = ""  # one or two sentences for the gallery and the finale, the title where there are none
     part: int = 1  # of which course it is
     barred: tuple[tuple[str, str], ...] = ()  # earlier steps and their functions that it may not call: they do its work

@@ -85,7 +85,7 @@ def _check(text: str) -> None:
 
 
 def decode(data: bytes) -> Decoded:
-    """Plain UTF-8 with LF. What is no text raises NotTaken with words that go on after the file's name."""
+    """Plain UTF-8 with LF. What is no text raises RejectedFile with words that go on after the file's name."""
     for magic, what in _DOCUMENTS:
         if data.startswith(magic):
             raise RejectedFile(f"is {what}, not a source, and was not taken; {_ADVICE}.")

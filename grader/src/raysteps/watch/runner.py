@@ -142,7 +142,7 @@ class Runner:
             self._current = None
 
     def finished(self) -> None:
-        """After Ended: makes room, and the next worker ready."""
+        """After WorkerEnded: makes room, and the next worker ready."""
         if self._current is not None:
             self._current.end()
             self._current = None
