@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from watch_fakes import result_of
 
-from raysteps.cli.watch import on_a_desktop
+from raysteps.common.local_server import on_a_desktop
 from raysteps.common.platform import kit_command
 from raysteps.course.manifest import Step
 from raysteps.images.compare import worst_pixel, write_png

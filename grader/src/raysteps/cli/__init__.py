@@ -28,3 +28,9 @@ def square_number(most: int, word: str) -> int:
     if not re.fullmatch(r"[0-9]{1,6}", word) or not 1 <= int(word) <= most or math.isqrt(int(word)) ** 2 != int(word):
         raise argparse.ArgumentTypeError(f"{word}: expected a square number from 1 to {most}, like 16")
     return int(word)
+
+
+def port(word: str) -> int:
+    if not (word.isascii() and word.isdigit() and int(word) <= 65535):
+        raise argparse.ArgumentTypeError(f"{word}: expected a port from 1 to 65535, or 0 for any that is free")
+    return int(word)

@@ -11,9 +11,9 @@ from rich.console import Console
 
 from raysteps.classroom.database import FILE, ClassDatabase, telling_of
 from raysteps.classroom.session import undisturbed
-from raysteps.cli.watch import on_a_desktop, port
+from raysteps.cli import port
 from raysteps.common.errors import UsageError
-from raysteps.common.local_server import end_as_interrupted, shown_in_browser
+from raysteps.common.local_server import end_as_interrupted, on_a_desktop, shown_in_browser
 from raysteps.common.platform import kit_command, refuse_on_windows
 from raysteps.course.project import Project
 from raysteps.desk.desk import Desk, DeskServer

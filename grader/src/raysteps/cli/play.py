@@ -8,9 +8,9 @@ from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.cli.watch import on_a_desktop, port
+from raysteps.cli import port
 from raysteps.common.errors import UsageError
-from raysteps.common.local_server import end_as_interrupted, shown_in_browser
+from raysteps.common.local_server import end_as_interrupted, on_a_desktop, shown_in_browser
 from raysteps.course.project import Project
 from raysteps.play.packages import REGISTRY, registry_of
 from raysteps.play.play_page import PlayPage, PlayServer, publish, refuse_to_publish

@@ -1,16 +1,15 @@
 """The command `watch`."""
 
 import argparse
-import os
 import queue
-import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 
 from rich.console import Console
 
+from raysteps.cli import port
 from raysteps.cli.steps import STEP_NAMES
-from raysteps.common.local_server import end_as_interrupted, shown_in_browser
+from raysteps.common.local_server import end_as_interrupted, on_a_desktop, shown_in_browser
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.progress.standing import chosen_or_next
@@ -26,12 +25,6 @@ from raysteps.watch.terminal_view import TerminalView
 _INTERRUPTED = 130
 
 
-def port(word: str) -> int:
-    if not (word.isascii() and word.isdigit() and int(word) <= 65535):
-        raise argparse.ArgumentTypeError(f"{word}: expected a port from 1 to 65535, or 0 for any that is free")
-    return int(word)
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("step", nargs="?", metavar="STEP", help=f"{STEP_NAMES}; the next one when none is given")
     parser.add_argument(
@@ -40,13 +33,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--poll", action="store_true", help="look for saves every moment, where events do not work")
     parser.add_argument("--quick", action="store_true", help="never check hidden cases by itself")
     parser.add_argument("--port", type=port, default=0, metavar="N", help="of the page (any that is free)")
-
-
-def on_a_desktop(environment: Mapping[str, str] = os.environ, platform: str = sys.platform) -> bool:
-    """Whether a browser that is opened here is seen by whoever types here."""
-    if "SSH_CONNECTION" in environment or "CI" in environment:
-        return False
-    return platform in ("darwin", "win32") or any(environment.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
 
 
 def _watch(

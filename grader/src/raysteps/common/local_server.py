@@ -1,6 +1,7 @@
 """Serves pages to this machine's own browser, and to nobody else."""
 
 import html
+import os
 import secrets
 import signal
 import socket
@@ -8,7 +9,7 @@ import sys
 import tempfile
 import threading
 import webbrowser
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -80,6 +81,13 @@ def end_as_interrupted() -> None:
     for name in ("SIGTERM", "SIGHUP"):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), end)
+
+
+def on_a_desktop(environment: Mapping[str, str] = os.environ, platform: str = sys.platform) -> bool:
+    """Whether a browser that is opened here is seen by whoever types here."""
+    if "SSH_CONNECTION" in environment or "CI" in environment:
+        return False
+    return platform in ("darwin", "win32") or any(environment.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
 
 
 @contextmanager
