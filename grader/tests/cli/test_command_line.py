@@ -11,8 +11,9 @@ import pytest
 from course_fakes import small_project
 
 from raysteps.cli import app
-from raysteps.cli.app import exit_code_of, main, new_parser
+from raysteps.cli.app import EXAMPLES, exit_code_of, main, new_parser
 from raysteps.common.errors import UsageError
+from raysteps.common.platform import own_command
 from raysteps.course.project import Project
 from raysteps.submission.load import refuse_results_in
 
@@ -30,8 +31,24 @@ pytestmark = pytest.mark.portable
         ("hint --level x", "hint", "argument --level: expected a whole number from 1 on, found 'x'"),
         ("grade there --seed 1.5", "grade", "argument --seed: expected a whole number, found '1.5'"),
         ("dev errors --minutes few", "dev errors", "argument --minutes: expected a number such as 0.5, found 'few'"),
+        ("watch --no-opn", "watch", "--no-opn: there is no such option; did you mean --no-open?"),
+        ("export canvs", "export", "argument SYSTEM: 'canvs' is none of its values; did you mean canvas?"),
+        ("dev lnt", "dev", "argument WHAT: 'lnt' is none of its values; did you mean lint?"),
+        ("grade a --feedback x", "grade", "argument --feedback: 'x' is none of its values; expected full, diagnosis "
+         "or score"),
+        ("grade-class submissions", "grade-class", "expected --out OUT (where class.sqlite, results.csv and the rest "
+         "go); such as: ./raysteps grade-class submissions --out grades"),
+        ("grade-class submissions --out", "grade-class", "expected --out OUT (where class.sqlite, results.csv and the "
+         "rest go); such as: ./raysteps grade-class submissions --out grades"),
+        ("compare", "compare", "expected MINE (a picture, .png or .ppm) and REFERENCE (another one of the same size); "
+         "such as: ./raysteps compare mine.png reference.png"),
+        ("release", "release", "expected --out DIR (a new or empty folder, or an earlier release) or --check PATH "
+         "(look for solutions in a folder or zip that is to go out); such as: ./raysteps release --out ../course"),
+        ("bench", "bench", "expected WHAT (render, mitsuba, scale, threads, parse, loop, waits, play, boxes, grading "
+         "or docs); such as: ./raysteps bench render"),
+        ("dev new", "dev new", "expected NN-name (the next number and a name, such as 20-fog)"),
     ],
-)
+)  # fmt: skip
 def test_the_usage_is_that_of_the_command_and_one_line_says_what_is_wrong(
     typed: str, command: str, wrong: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -39,7 +56,27 @@ def test_the_usage_is_that_of_the_command_and_one_line_says_what_is_wrong(
         main(typed.split())
     said = capsys.readouterr().err
     assert said.startswith(f"usage: raysteps {command} [-h]")
-    assert said.splitlines()[-1] == f"raysteps {command}: error: {wrong}"
+    typed_here = wrong.replace("./raysteps", own_command())
+    assert said.splitlines()[-1] == f"raysteps {command}: error: {typed_here}"
+
+
+def test_a_command_that_needs_words_has_an_example_that_it_takes(project: Project) -> None:
+    parser = new_parser(project)
+    assert parser._subparsers is not None
+    commands = parser._subparsers._group_actions[0].choices
+    assert isinstance(commands, dict)
+    for name in set(commands) - set(EXAMPLES):
+        assert parser.parse_args([name]).command == name
+    for name, words in EXAMPLES.items():
+        assert parser.parse_args([name, *words.split()]).command == name
+
+
+@pytest.mark.parametrize("command", ["watch", "play", "desk grades"])
+def test_a_browser_is_kept_shut_by_one_option_everywhere(command: str, project: Project) -> None:
+    parser = new_parser(project)
+    for option in ("--no-open", "--no-browser"):
+        told = vars(parser.parse_args([*command.split(), option]))
+        assert told.get("no_open", not told.get("browser")) is True
 
 
 def test_an_option_before_any_command(capsys: pytest.CaptureFixture[str]) -> None:

@@ -4,20 +4,18 @@ import argparse
 import errno
 import gc
 import os
-import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
-from itertools import takewhile
 from types import ModuleType
-from typing import Any, Literal
+from typing import Literal
 
 from rich.console import Console
 
 from raysteps import __version__
-from raysteps.cli import STUDENTS_KIT
+from raysteps.cli import STUDENTS_KIT, Parser
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, is_full, reason, reason_and_place
 from raysteps.common.text import did_you_mean
 from raysteps.course.project import Project, here
@@ -83,6 +81,28 @@ COMMANDS = (
 )
 
 
+# What is typed after those that need some words.
+EXAMPLES = {
+    "reset": "04",
+    "convert": "chair.obj -o chair.pbrt",
+    "inspect": "scenes/lessons/three-spheres.nff 160 120",
+    "compare": "mine.png reference.png",
+    "replay": "cases/02-sphere-intersect.json",
+    "grade": "submissions/ann.zip",
+    "grade-class": "submissions --out grades",
+    "nightly": "submissions --out grades",
+    "desk": "grades",
+    "leaderboard": "grades",
+    "similar": "submissions --out similar.html",
+    "release": "--out ../course",
+    "image": "--tag grader",
+    "export": "gradescope --out autograder.zip",
+    "gallery": "--out gallery",
+    "bench": "render",
+    "dev": "check --only 02",
+}
+
+
 # What a students' kit has in their place; else what there is.
 _INSTEAD = {"grade": "check", "grade-class": "check", "nightly": "check", "learn": "check", "replay": "check",
             "test": "check", "leaderboard": "report", "desk": "report", "demo": "finale",
@@ -119,56 +139,9 @@ def _module(project: Project, command: Command) -> ModuleType:
     return import_module(command.module)
 
 
-_OF_THE_REFERENCE = ("--impl", "--against")
-
-
-def _whole_number(word: str) -> int:
-    try:
-        return int(word)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"expected a whole number, found '{word}'") from error
-
-
-def _number(word: str) -> float:
-    try:
-        return float(word)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"expected a number such as 0.5, found '{word}'") from error
-
-
-class _Parser(argparse.ArgumentParser):
-    """Of one command: it refuses what it does not know itself, with its own usage. argparse hands that up to the
-    parser of all commands, which knows nothing of it, and asks first for what is missing."""
-
-    def __init__(self, *words: Any, **options: Any) -> None:
-        super().__init__(*words, **options)
-        self.register("type", int, _whole_number)
-        self.register("type", float, _number)
-
-    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        words = args or ()
-        if self._subparsers is not None:
-            words = words[:1]  # what follows belongs to a command
-        options = takewhile(lambda word: word != "--", words)  # what comes after it is none
-        self._refuse_unknown(word for word in options if re.fullmatch("--[^ ]+", word))
-        known, left = super().parse_known_args(args, namespace)
-        self._refuse_unknown(word for word in left if word.startswith("-"))
-        if left:
-            self.error(f"'{left[0]}': expected nothing more")
-        return known, left
-
-    def _refuse_unknown(self, words: Iterable[str]) -> None:
-        names = self._option_string_actions
-        for option in (word.partition("=")[0] for word in words):
-            if not any(name.startswith(option) for name in names):  # argparse takes the beginning of one, too
-                if option in _OF_THE_REFERENCE and self.get_default(STUDENTS_KIT):
-                    self.error(f"{option}: a students' kit has no reference; pictures made with it lie in reference/")
-                self.error(f"{option}: there is no such option{did_you_mean(option, names)}")
-
-
 def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentParser:
     """Of all commands; with `only`, the arguments of no other command are known, which saves importing it."""
-    parser = _Parser(
+    parser = Parser(
         prog="raysteps",
         description="A ray tracer in graded steps.",
         epilog=EXITS,
@@ -180,6 +153,7 @@ def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentPa
     impl = "; --impl mine|reference" if project.has_reference else ""
     for command in _commands(project):
         child = commands.add_parser(command.name, help=command.about.replace(_IMPL, impl))
+        child.example = EXAMPLES.get(command.name, "")
         if not project.has_reference:
             child.set_defaults(**{STUDENTS_KIT: project})
         if only in (None, command.name):

@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("folder", type=Path, metavar="OUT", help="the --out folder of grade-class")
     add("--as", dest="author", default="", metavar="NAME", help="who you are (your login); students read it")
     add("--port", type=port, default=0, metavar="N", help="of the page (any that is free)")
-    add("--no-open", action="store_true", help="do not open the page in a browser")
+    add("--no-open", "--no-browser", action="store_true", help="do not open the page in a browser")
     add(
         "--export",
         type=Path,

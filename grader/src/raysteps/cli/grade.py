@@ -46,7 +46,7 @@ class GradeOptions:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What is graded, and how."""
-    parser.add_argument("submission", type=Path)
+    parser.add_argument("submission", type=Path, metavar="SUBMISSION", help="a folder, zip or tar")
     parser.add_argument("--out", type=Path, help="where results.json and the pictures go")
     parser.add_argument("--seed", type=int, metavar="N", help="of the hidden cases (that of course.toml, else 1)")
     parser.add_argument("--only", "--steps", nargs="+", default=[], metavar="STEP", help=f"these steps, {STEPS_HELP}")

@@ -91,7 +91,7 @@ def _file(word: str | None) -> Path | None:
 def read_options(arguments: argparse.Namespace, grader: str, course: Course = _NO_COURSE) -> ClassOptions:
     """What is not said is as course.toml says."""
     if arguments.folder is None:
-        raise UsageError("grade-class: expected a folder of submissions (or --merge)")
+        raise UsageError("grade-class: expected a folder of submissions, DIR, in front of --out (or --merge)")
     if arguments.jobs is not None and arguments.scheduler:
         raise UsageError("--jobs is for this machine; with --scheduler the workers say how much they do at a time")
     jobs = arguments.jobs

@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What may follow `play`."""
     add = parser.add_argument
     add("--port", type=port, default=_PORT, metavar="N", help=f"of the page ({_PORT}); your work is kept by it")
-    add("--no-open", action="store_true", help="do not open the page in a browser")
+    add("--no-open", "--no-browser", action="store_true", help="do not open the page in a browser")
     add("--registry", metavar="URL", help=f"where npm packages are loaded down from, once ({REGISTRY})")
     add(
         "--out",

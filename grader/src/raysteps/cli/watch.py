@@ -28,7 +28,11 @@ _INTERRUPTED = 130
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("step", nargs="?", metavar="STEP", help=f"{STEP_NAMES}; the next one when none is given")
     parser.add_argument(
-        "--browser", action=argparse.BooleanOptionalAction, help="open the page in a browser (on a desktop)"
+        "--open",
+        "--browser",
+        dest="browser",
+        action=argparse.BooleanOptionalAction,
+        help="open the page in a browser (on a desktop)",
     )
     parser.add_argument("--poll", action="store_true", help="look for saves every moment, where events do not work")
     parser.add_argument("--quick", action="store_true", help="never check hidden cases by itself")
