@@ -108,7 +108,7 @@ def test_what_is_missing_is_said_and_the_rest_is_drawn(
     scene.write_text(_SCENE)
     assert _run(course, str(scene), "-o", str(tmp_path / "out")) == 0
     said = capsys.readouterr().out
-    assert "not written yet, so without it: 04 Shadows, 05 Reflection" in said
+    assert "not written yet, so without them: 04 Shadows, 05 Reflection" in said
     assert "without step 06 every ray asks every surface" in said
     assert "4 rays for each pixel" in said
     page = (tmp_path / "out/finale.html").read_text("utf-8")

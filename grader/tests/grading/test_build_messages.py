@@ -13,6 +13,7 @@ from raysteps.grading.build_messages import (
     compile_message,
     forbidden_message,
     link_message,
+    undefined_message,
     why_not_built,
 )
 from raysteps.sandbox.task import LimitHit, TaskResult
@@ -227,3 +228,8 @@ def test_a_step_that_reaches_for_what_is_not_its_own(steps: list[Step]) -> None:
     assert "may not call split and join of step 06-octree, which do" in forbidden_message(bvh, tuple(owners), owners)
     assert "counters" in forbidden_message(shadows, ("_ZN8raysteps7t_statsE",), owners)
     assert "not for the steps" in forbidden_message(shadows, ("_ZN5Catch4failE",), owners)
+
+
+def test_one_helper_is_called_and_two_are() -> None:
+    assert undefined_message(("helper(int)",)).startswith("It does not build: helper(int) is called, but")
+    assert undefined_message(("a()", "b()")).startswith("It does not build: a() and b() are called, but")

@@ -73,6 +73,15 @@ def test_no_step_waits_for_a_processor_that_is_busy_with_another(
     )
 
 
+def test_two_steps_that_were_not_graded_are_told_as_two(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
+    chosen = ("03-phong-shading",)
+    submission = Submission("jo", {step: solved[step].encode() for step in chosen}, {})
+    results = grade_submission(kit.in_one_process(), submission, Settings(only=chosen), LimitsOnly(), tmp_path)
+    assert results.steps[0].cumulative.message.endswith(
+        "the reference's 01-camera-rays and 02-intersection, which were not graded this time."
+    )
+
+
 def test_what_is_compiled_ahead_is_not_compiled_again(kit: BuiltKit, solved: Sources, tmp_path: Path) -> None:
     whole, source = kit.in_one_process(), solved[STEP].encode()
     step = next(step for step in kit.steps if step.id == STEP)

@@ -124,7 +124,7 @@ def test_a_step_that_git_does_not_know_is_told_before_anything_is_built(
     subprocess.run(["git", "init", "--quiet", copy.root], check=True)
     subprocess.run(["git", "-C", copy.root, "add", ".", ":!steps/09-bvh"], check=True)
     arguments = argparse.Namespace(check=None, out=tmp_path / "out", steps=None, course="Course", play=None)
-    with pytest.raises(UsageError, match=r"steps/09-bvh/bvh\.hpp.*: would go out, but git does not know it"):
+    with pytest.raises(UsageError, match=r"steps/09-bvh/bvh\.hpp.*: would go out, but git does not know them"):
         command.run(copy, arguments, Console(quiet=True))
     assert not (tmp_path / "out").exists()
 

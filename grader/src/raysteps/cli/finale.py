@@ -169,7 +169,8 @@ def _stations(
 
 def _say_first(reach: Reach, impl: str, scene: str, samples: int, console: Console) -> None:
     missing = [f"{step.number} {step.title}{' (bonus)' if step.bonus else ''}" for step in reach.missing]
-    said = [f"not written yet, so without it: {join_and(missing)}"] if missing else []
+    it = "it" if len(missing) == 1 else "them"
+    said = [f"not written yet, so without {it}: {join_and(missing)}"] if missing else []
     if reach.tree == "none":
         tree = next((step for step in reach.missing if step.is_about_a_tree), None)
         without = "" if tree is None else f"without step {tree.number} "

@@ -18,6 +18,7 @@ from raysteps import __version__
 from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV, Need
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import new_or_empty_folder, write_bytes
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.settings import FILE as COURSE
@@ -116,7 +117,9 @@ def kit_files(project: Project) -> list[KitFile]:
     there = {file.place.parts[0] for file in files}
     missing = [name for name in (*_FILES, *_FOLDERS) if name not in there and not name.endswith((".md", "LICENSE"))]
     if missing:
-        raise GraderFault(f"{root}: {', '.join(missing)} is missing, so this is no whole kit")
+        raise GraderFault(
+            f"{root}: {join_and(missing)} {'is' if len(missing) == 1 else 'are'} missing, so this is no whole kit"
+        )
     return files
 
 

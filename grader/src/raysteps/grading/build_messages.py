@@ -231,7 +231,8 @@ def missing_message(names: tuple[str, ...]) -> str:
 def undefined_message(names: tuple[str, ...]) -> str:
     """A helper that was declared and forgotten, or has another signature where it is defined."""
     shown = join_and([shorten(name, 200) for name in names[:5]])
-    return f"It does not build: {shown} is called, but defined nowhere. Is the signature the same in both places?"
+    are = "is" if len(names) == 1 else "are"
+    return f"It does not build: {shown} {are} called, but defined nowhere. Is the signature the same in both places?"
 
 
 def twice_message(name: str) -> str:

@@ -345,8 +345,9 @@ class HiddenStepGrader(StepGrader):
                     own = [one for one in (*earlier, step) if one not in replaced]
                     self._wait_for(own)
                     only = self._settings.only
+                    not_chosen = [one.id for one in replaced if only and one.id not in only]
                     others = {
-                        "was not graded this time": [one.id for one in replaced if only and one.id not in only],
+                        f"{'was' if len(not_chosen) == 1 else 'were'} not graded this time": not_chosen,
                         "you do not have right yet": [one.id for one in replaced if not only or one.id in only],
                     }
                     self._result.cumulative = grade_integration(self._gallery, program, step, own, others)

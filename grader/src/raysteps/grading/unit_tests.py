@@ -364,7 +364,8 @@ def set_aside(
     if waiting and replaced:
         result.messages.append("Your other functions are tried with the reference's in place of what is not written.")
     if written:
-        result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(written)}. The tests pass: delete that line.")
+        line = "that line" if len(written) == 1 else "these lines"
+        result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(written)}. The tests pass: delete {line}.")
     return waiting
 
 

@@ -241,7 +241,8 @@ def why_unspared(hidden: Sequence[HiddenResult]) -> str:
         return ""
     return (
         f"The picture is right, but nothing spared its few tests of objects: in the judge's cases {join_and(names)} "
-        "spares a ray nothing. Let the tree spare them, and test a surface by surface->hit(ray) only."
+        f"{'spares' if len(names) == 1 else 'spare'} a ray nothing. Let the tree spare them, and test a surface by "
+        "surface->hit(ray) only."
     )
 
 

@@ -155,10 +155,11 @@ def _refuse_gaps(steps: list[Step], absent: list[Step]) -> None:
     gaps = [step.id for step in absent if step.index < steps[-1].index and step.part <= part]
     if gaps:
         until = [step.index for step in steps if step.id < gaps[0]]
-        sooner = f"end before it with `--steps {steps[0].index}-{until[-1]}`, or " if until else ""
+        it = "it" if len(gaps) == 1 else "them"
+        sooner = f"end before {it} with `--steps {steps[0].index}-{until[-1]}`, or " if until else ""
         raise UsageError(
-            f"{join_and(gaps)}: left out of the course, but the pictures of later steps need it, and a students' kit "
-            f"has no reference to stand in; {sooner}let it in, as a bonus or for few points"
+            f"{join_and(gaps)}: left out of the course, but the pictures of later steps need {it}, and a students' kit "
+            f"has no reference to stand in; {sooner}let {it} in, as a bonus or for few points"
         )
 
 

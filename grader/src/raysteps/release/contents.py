@@ -194,8 +194,9 @@ def refuse_untracked(root: Path, files: Collection[str]) -> None:
     new = untracked(root)
     found = sorted(name for name in new if name in files or name == _WORKFLOW or name.startswith(f"{_OVERLAY}/"))
     if found:
+        it = "it" if len(found) == 1 else "them"
         raise UsageError(
-            f"{join_and(found[:_MAX_NAMED])}: would go out, but git does not know it; `git add` what belongs to the "
+            f"{join_and(found[:_MAX_NAMED])}: would go out, but git does not know {it}; `git add` what belongs to the "
             "kit, and take away the rest"
         )
 
