@@ -7,7 +7,7 @@ import pytest
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
-from raysteps.course.stubs import called_functions, make_stub, same_code, unfinished_functions, without_markers
+from raysteps.course.stubs import called_functions, make_stub, same_code, unfinished_functions, uses, without_markers
 
 SOLUTION = """#include "a.hpp"
 
@@ -160,3 +160,24 @@ def test_which_functions_are_called() -> None:
     std::optional<HitRecord> Sphere::intersect(const Ray& ray) const { return std::nullopt; }
     """
     assert called_functions(source, ("shadow_ray", "is_lit", "Sphere::intersect")) == {"shadow_ray"}
+
+
+@pytest.mark.parametrize(
+    ("source", "used"),
+    [
+        ("float far(float x) { return x; }", False),
+        ("float far(float);\nfloat raysteps::far(float x);", False),
+        ("[[nodiscard]] std::optional<HitRecord> far(const Ray& ray) {", False),
+        ("namespace { std::vector<int>& far() {", False),
+        ("void f() { far(1); }", True),
+        ("void f() { raysteps::far(1); }", True),
+        ("void f() { return far(1); }", True),
+        ("void f() { if (b) a(); else far(1); }", True),
+        ("float f() { float k = 2.0F * far(1); }", True),
+        ("float f() { return a > far(1); }", True),
+        ("void f() { auto* g = &far; }", True),
+        ('// far(1)\nconst char* text = "far(1)";', False),
+    ],
+)
+def test_where_a_name_is_used_and_where_declared(source: str, used: bool) -> None:
+    assert [source[at : at + 3] for _, at in uses(source, {"far"})] == ["far"] * used

@@ -38,13 +38,26 @@ def _with(solved: Sources, statement: str, include: str) -> dict[str, str]:
     return {STEP: f'#include "{include}"\n' + solved[STEP].replace(body, body + statement + "\n")}
 
 
+def _first_line(source: str, call: str) -> tuple[str, str]:
+    """`line:column` of the call, and it between its neighbours."""
+    lines = source.splitlines()
+    line = next(number for number, text in enumerate(lines, 1) if call in text)
+    column = lines[line - 1].index(call) + 1
+    shown = [f"{number:5} | {lines[number - 1]}" for number in (line - 1, line, line + 1)]
+    return f"{line}:{column}", "\n".join([*shown[:2], f"      | {' ' * (column - 1)}^", shown[2]])
+
+
 def test_a_function_of_a_later_step_is_out_of_reach(
     kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources
 ) -> None:
     sources = _with(solved, "return closest_hit_in_octree(build_octree(surfaces), ray);", "steps/06-octree/octree.hpp")
     result = _grade(kit, make_submission("later", sources), tmp_path / "out")
     assert (result.status, result.points) == ("does-not-build", 0)
-    assert result.messages == ["It does not build: it calls a function of step 06-octree, which comes later."]
+    place, shown = _first_line(sources[STEP], "closest_hit_in_octree(")
+    assert result.messages == [
+        f"It does not build: intersection.cpp:{place}: it calls a function of step 06-octree, which comes later."
+        f"\n{shown}"
+    ]
 
 
 @pytest.mark.parametrize(
@@ -60,9 +73,10 @@ def test_what_does_the_work_of_a_step_elsewhere_is_out_of_its_reach(
     submission = load_submission(make_submission("earlier", {_BVH: source}), kit.steps)
     result = grade_submission(kit, submission, Settings(only=(_BVH,)), LimitsOnly(), tmp_path / "out").steps[0]
     assert (result.status, result.points) == ("does-not-build", 0)
+    place, shown = _first_line(source, "closest_hit_in_octree")
     assert result.messages == [
-        "It does not build: step 09-bvh may not call closest_hit_in_octree of step 06-octree, which does what step "
-        "09-bvh is about. Write it in bvh.cpp itself."
+        f"It does not build: bvh.cpp:{place}: step 09-bvh may not call closest_hit_in_octree of step 06-octree, which "
+        f"does what step 09-bvh is about. Write it in bvh.cpp itself.\n{shown}"
     ]
 
 
@@ -82,7 +96,9 @@ def test_the_counters_are_out_of_reach(
     sources = _with(solved, "thread_stats().surface_tests = 0;", "core/stats.hpp")
     result = _grade(kit, make_submission("counters", sources), tmp_path / "out")
     assert result.status == "does-not-build"
-    assert "counters" in result.messages[0]
+    place, shown = _first_line(sources[STEP], "thread_stats()")
+    assert result.messages[0].startswith(f"It does not build: intersection.cpp:{place}: it reaches for the counters")
+    assert result.messages[0].endswith(shown)
 
 
 def test_a_function_of_an_earlier_step_is_there(
@@ -137,7 +153,11 @@ def test_a_helper_that_nobody_defines_is_named(
     source = declared + "\n" + _with(solved, called, "core/ray.hpp")[STEP]
     result = _grade(kit, make_submission("helper", {STEP: source}), tmp_path / "out")
     assert result.status == "does-not-build"
-    assert result.messages[0].startswith(f"It does not build: {shown} is called, but defined nowhere.")
+    place, lines = _first_line(source, "own_helper(1.0F)" if "own_" in called else "helper(1.0F)")
+    assert result.messages[0].startswith(
+        f"It does not build: intersection.cpp:{place}: {shown} is called, but defined nowhere."
+    )
+    assert result.messages[0].endswith(lines)
 
 
 def test_the_standard_library_is_within_reach(

@@ -299,7 +299,7 @@ def test_what_the_linker_says_in_the_words_of_the_grader(watched: Watched, serve
     page = _open(watched, server)
     words = {
         "twice": twice_message("{}"),
-        "undefined": [undefined_message((one,)) for one in ("{}", "{} and {}")],
+        "undefined": [undefined_message(names) for names in (("{}",), ("{}", "{}"))],
         "asInAHeader": AS_IN_A_HEADER,
     }
     said = "wasm-ld: error: duplicate symbol: raysteps::far(float)\n>>> defined in /work/own-01.o\n"

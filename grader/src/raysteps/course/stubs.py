@@ -1,8 +1,7 @@
 """Makes the stubs from the marked regions of solutions/."""
 
 import re
-from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
@@ -178,12 +177,36 @@ def unfinished_functions(source: str, step: Step) -> list[str]:
     return [name for name in step.functions if f'"{name}"' in left]
 
 
+_EXPRESSIONS = frozenset(
+    ["return", "else", "do", "case", "throw", "co_return", "co_yield", "co_await", "new", "delete", "and", "or", "not"]
+)
+_STATEMENT_ENDS = frozenset(";{}\n")
+_OF_TYPES = frozenset(":<>,&*[]")
+_MOST_BEFORE = 100  # tokens of a declaration before its name
+
+
+def _is_declared(code: Sequence[str], at: int) -> bool:
+    """Whether a type, and nothing but a type, stands between the name there and the statement before."""
+    first = at
+    while first > 0 and at - first < _MOST_BEFORE and code[first - 1] not in _STATEMENT_ENDS:
+        first -= 1
+    before = list(code[first:at])
+    while before[-2:] == [":", ":"]:  # names that it is qualified by
+        del before[-3:]
+    words = [word for word in before if word not in _OF_TYPES]
+    return bool(words) and all(word.isidentifier() and word not in _EXPRESSIONS for word in words)
+
+
+def uses(source: str, names: Collection[str]) -> Iterator[tuple[str, int]]:
+    """Where the source asks for something by one of these names, not where it declares or defines that."""
+    placed = list(placed_tokens(source))
+    code = [text for text, _ in placed]
+    return ((word, placed[at][1]) for at, word in enumerate(code) if word in names and not _is_declared(code, at))
+
+
 def called_functions(source: str, names: Collection[str]) -> set[str]:
-    """Those that the source calls by name, besides defining them once."""
-    code = tokens(source)
-    called = zip(["", *code], code, [*code[1:], ""], strict=False)
-    amounts = Counter(word for before, word, after in called if after == "(" and before != "::")
-    return {name for name in names if amounts[name] > 1}
+    """Those that the source calls by name."""
+    return {name for name, _ in uses(source, names)}
 
 
 def same_code(one: str, other: str) -> bool:

@@ -1,12 +1,14 @@
 """What a failed build says to a student: the first real error in the student's own file, and the lines around it."""
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from raysteps.common.text import join_and, nearest, printable, shorten
 from raysteps.course.manifest import Step, read_all_steps
+from raysteps.course.stubs import uses
 from raysteps.sandbox.task import TaskResult
-from raysteps.toolchain.compile import Compiled
+from raysteps.toolchain.compile import Compiled, own_name
 from raysteps.toolchain.kit_artifacts import BuiltKit, function_name
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
@@ -27,6 +29,7 @@ _TWICE = re.compile(
     r"|LNK2005: \"?(?P<theirs>[^\s\"][^\"\n]*)"
 )
 
+_FAILED = "It does not build: "
 _LAST_WORDS = re.compile(r"ld returned \d+ exit status|linker command failed|^compilation terminated")  # why is above
 
 
@@ -203,10 +206,29 @@ def _in_its_place(names: tuple[str, ...], source: str) -> str:
     return f"\nThe file has {other}: is that meant to be {name}? Upper and lower case differ, too." if other else ""
 
 
+_COUNTERS = "thread_stats"  # as a source asks for them
+
+
+def _at_its_use(message: str, step: Step, names: Collection[str], source: str) -> str:
+    """The same with the place and the lines where the source first asks for one of these, if it does so itself."""
+    found = next(uses(source, names), None)
+    if found is None:
+        return message
+    _, at = found
+    line, column = source.count("\n", 0, at) + 1, at - source.rfind("\n", 0, at)
+    place = f"{step.file}:{line}:{column}"
+    first, *more = message.removeprefix(_FAILED).splitlines()
+    return "\n".join([f"{_FAILED}{place}: {first}", _context(source, line, column), *more])
+
+
+def _of_counters(name: str) -> bool:
+    return "t_stats" in name
+
+
 def forbidden_message(step: Step, names: tuple[str, ...], owners: dict[str, tuple[Step, str]]) -> str:
     """A step that asks for what is not its own. `owners`: of functions of other steps, and how C++ writes these."""
     for name in names:
-        if "t_stats" in name:
+        if _of_counters(name):
             return "It does not build: it reaches for the counters of the grader, which are none of its business."
         other, _ = owners.get(name, (step, ""))
         if other.index > step.index:
@@ -277,11 +299,14 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
     if compiled.forbidden:
         others = [other for other in read_all_steps(kit.project) if other.id != step.id]
         owners = {name: (other, shown) for other in others for name, shown in kit.functions(other).items()}
-        return forbidden_message(step, compiled.forbidden, owners)
+        wanted = {*map(own_name, compiled.forbidden), *([_COUNTERS] if _of_counters(compiled.forbidden[0]) else [])}
+        return _at_its_use(forbidden_message(step, compiled.forbidden, owners), step, wanted, source)
     if compiled.unreadable:
         return "It does not build: its object holds more names than a step can have, or cannot be read."
     if compiled.undefined:
-        return undefined_message(tuple(map(_as_in_a_header, compiled.undefined)))
+        wanted = {name.partition("(")[0].rpartition("::")[2] for name in compiled.undefined}
+        message = undefined_message(tuple(map(_as_in_a_header, compiled.undefined)))
+        return _at_its_use(message, step, wanted, source)
     if compiled.missing:
         names = tuple(map(_as_in_a_header, compiled.missing))
         return missing_message(names) + _in_its_place(names, source)

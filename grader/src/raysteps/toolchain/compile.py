@@ -58,6 +58,20 @@ def of_somebody(name: str) -> bool:
     return _NOT_OF_A_LIBRARY.match(name) is not None
 
 
+_NESTED = re.compile(r"_Z(?:T[VISWH])?(?:NK?)?")
+_PART = re.compile(r"[0-9]{1,3}")
+
+
+def own_name(linker_name: str) -> str:
+    """What the source calls a function or variable of which this is the linker's name; nothing where it shows none."""
+    start = _NESTED.match(linker_name)
+    at, name = start.end() if start else 0, ""
+    while (size := _PART.match(linker_name, at)) is not None:
+        at = size.end() + int(size[0])
+        name = linker_name[size.end() : at]
+    return name
+
+
 def nm_arguments() -> tuple[str, ...]:
     return ("--extern-only", "--format=posix")
 
