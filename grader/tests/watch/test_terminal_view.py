@@ -9,6 +9,8 @@ from rich.console import Console
 
 from raysteps.course.manifest import Step
 from raysteps.results.model import ImageResult, StepResult, TestResult
+from raysteps.results.statuses import Status
+from raysteps.watch.page_state import state_of
 from raysteps.watch.step_view import StepView
 from raysteps.watch.terminal_view import TerminalView
 
@@ -53,6 +55,23 @@ def test_a_check_tells_what_the_look_before_it_could_not(steps: list[Step]) -> N
     console = printed()
     TerminalView(console).result(replace(view, looked=tuple(result.tests)))
     assert "first" not in text(console)
+
+
+_WARNING = "own.cpp:66:11: warning: 'nearer' may be used uninitialized [-Wmaybe-uninitialized]"
+
+
+@pytest.mark.parametrize(("status", "told"), [("failed", 1), ("passed", 0), ("does-not-build", 0)])
+def test_what_the_compiler_warns_of_is_told_of_a_step_that_is_wrong(
+    steps: list[Step], status: Status, told: int
+) -> None:
+    result = StepResult(steps[0].id, status, 0.0, steps[0].points, bonus=False, build_log=f"{_WARNING}\n{_WARNING}")
+    console = printed()
+    view = StepView(steps[0], "idle", result=result, complete=True)
+    TerminalView(console).result(view)
+    assert text(console).count("  warning  own.cpp:66:11: 'nearer' may be used uninitialized\n") == told
+    messages = state_of(view)["messages"]
+    assert messages == ["The compiler warns: own.cpp:66:11: 'nearer' may be used uninitialized"] * told
+    assert state_of(replace(view, complete=False))["messages"] == []  # it may pass yet
 
 
 def test_only_a_picture_that_is_wrong_is_red(steps: list[Step]) -> None:

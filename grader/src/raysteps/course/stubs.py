@@ -177,9 +177,8 @@ def unfinished_functions(source: str, step: Step) -> list[str]:
     return [name for name in step.functions if f'"{name}"' in left]
 
 
-_EXPRESSIONS = frozenset(
-    ["return", "else", "do", "case", "throw", "co_return", "co_yield", "co_await", "new", "delete", "and", "or", "not"]
-)
+# No types, though they stand where one may.
+_WORDS_OF_CODE = {"return", "else", "do", "case", "throw", "new", "delete", "co_return", "co_yield", "co_await"}
 _STATEMENT_ENDS = frozenset(";{}\n")
 _OF_TYPES = frozenset(":<>,&*[]")
 _MOST_BEFORE = 100  # tokens of a declaration before its name
@@ -194,7 +193,7 @@ def _is_declared(code: Sequence[str], at: int) -> bool:
     while before[-2:] == [":", ":"]:  # names that it is qualified by
         del before[-3:]
     words = [word for word in before if word not in _OF_TYPES]
-    return bool(words) and all(word.isidentifier() and word not in _EXPRESSIONS for word in words)
+    return bool(words) and all(word.isidentifier() and word not in _WORDS_OF_CODE for word in words)
 
 
 def uses(source: str, names: Collection[str]) -> Iterator[tuple[str, int]]:

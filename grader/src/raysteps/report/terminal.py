@@ -1,6 +1,5 @@
 """Prints results for people."""
 
-import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +13,7 @@ from rich.text import Text
 from raysteps.common.platform import kit_command
 from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, SaidOnce, ended, inspect_worst, percent, total_words
+from raysteps.report.wording import HOW_SURE, SaidOnce, ended, inspect_worst, percent, total_words, warnings_of
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.results.statuses import STATUS_WORDS
 from raysteps.toolchain.kit_artifacts import ProgressCallback
@@ -40,14 +39,6 @@ def _points(result: StepResult) -> str:
 
 _INDENT = 13
 _LABEL = 10
-_MAX_WARNINGS = 3
-_WARNING = re.compile(
-    r"^(?P<text>(?:[A-Za-z]:(?=[\\/]))?[^\s:(][^\n:(]{0,200}(?::\d{1,7}:\d{1,7}|\(\d{1,7}(?:,\d{1,7})?\)): "
-    r"warning(?: C\d{1,6})?: .{1,300}?)(?: \[-W[\w=+-]{1,60}\]|$|(?<=.{300}))",
-    re.M,
-)
-_WHOLE_NUMBERS = re.compile(r"conversion [^\n]{0,40}'(?:const )?int' to '(?:const )?float'")
-_DIVIDED = "Of whole numbers 1 / 2 is 0: where they are divided, write float(a) / float(b)."
 
 
 def _print_hanging(console: Console, head: str, text: str) -> None:
@@ -171,12 +162,10 @@ def print_details(
         for message in result.messages:
             for line in message.splitlines():
                 _print_hanging(console, "  ", line)
-        if own and result.status not in ("passed", "does-not-build"):
-            warnings = dict.fromkeys(found["text"] for found in _WARNING.finditer(result.build_log))
-            for warning in list(warnings)[:_MAX_WARNINGS]:
-                _print_hanging(console, "  [yellow]warning[/yellow]  ", warning.replace(": warning: ", ": ", 1))
-                if _WHOLE_NUMBERS.search(warning):
-                    _print_below(console, _DIVIDED)
+        for warning, *more in warnings_of(result) if own else ():
+            _print_hanging(console, "  [yellow]warning[/yellow]  ", warning)
+            for line in more:
+                _print_below(console, line)
         once = SaidOnce(result.messages)
         for diagnosis in () if own else result.diagnoses:
             _print_diagnosis(console, diagnosis)

@@ -1,5 +1,6 @@
 """Words of a report: commands for its reader to copy, points, and what people said."""
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -7,7 +8,17 @@ from raysteps.common.platform import kit_command, own_command, quote_command
 from raysteps.common.text import number, tenths
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.course.project import here
-from raysteps.results.model import Comment, HandIn, ImageResult, PointsOverride, Results, Review, Termination, Total
+from raysteps.results.model import (
+    Comment,
+    HandIn,
+    ImageResult,
+    PointsOverride,
+    Results,
+    Review,
+    StepResult,
+    Termination,
+    Total,
+)
 from raysteps.results.statuses import in_words
 
 _OF_INSPECT = ("--step", "--size", "--depth", "--view", "--accel")  # of the arguments that a picture is made with
@@ -173,3 +184,25 @@ def total_words(total: Total, *, visible_only: bool = False) -> str:
         return f"{extra}{of_what}"
     bonus = f", and {extra}" if total.bonus.points else ""
     return f"{tenths(total.points - total.bonus.points)} of {tenths(total.max)} points{of_what}{bonus}"
+
+
+# What the compiler warns of.
+
+_MAX_WARNINGS = 3
+_WARNING = re.compile(
+    r"^(?P<text>(?:[A-Za-z]:(?=[\\/]))?[^\s:(][^\n:(]{0,200}(?::\d{1,7}:\d{1,7}|\(\d{1,7}(?:,\d{1,7})?\)): "
+    r"warning(?: C\d{1,6})?: .{1,300}?)(?: \[-W[\w=+-]{1,60}\]|$|(?<=.{300}))",
+    re.M,
+)
+_WHOLE_NUMBERS = re.compile(r"conversion [^\n]{0,40}'(?:const )?int' to '(?:const )?float'")
+_DIVIDED = "Of whole numbers 1 / 2 is 0: where they are divided, write float(a) / float(b)."
+
+
+def warnings_of(result: StepResult) -> list[list[str]]:
+    """Of a step that is wrong, for whoever wrote it: the first few, each with what to do in a line of its own where
+    that is known."""
+    if result.status in ("passed", "does-not-build"):
+        return []
+    found = list(dict.fromkeys(one["text"] for one in _WARNING.finditer(result.build_log)))[:_MAX_WARNINGS]
+    advice = ([_DIVIDED] if _WHOLE_NUMBERS.search(text) else [] for text in found)
+    return [[text.replace(": warning: ", ": ", 1), *more] for text, more in zip(found, advice, strict=True)]

@@ -25,8 +25,8 @@ from raysteps.report.page import (
     pixel_data,
     render_page,
 )
-from raysteps.report.wording import HOW_SURE, inspect_command, replay_command, watch_command
-from raysteps.results.model import Diagnosis, ImageResult, StepResult
+from raysteps.report.wording import HOW_SURE, inspect_command, replay_command, warnings_of, watch_command
+from raysteps.results.model import Diagnosis, ImageResult
 from raysteps.watch.step_view import StepView, passed_of, verdict
 
 # What the page shows, as JSON; whoever serves a page waits here for the next state.
@@ -166,9 +166,13 @@ def _diagnosis(found: Diagnosis) -> State:
     }
 
 
-def _messages(result: StepResult) -> list[str]:
-    """Those that say more than the numbers which the page shows anyway."""
-    return [message for message in result.messages if not _NUMBERS.fullmatch(message)]
+def _messages(view: StepView) -> list[str]:
+    """Those that say more than the numbers which the page shows anyway; once all is known, the compiler's, too."""
+    if view.result is None:
+        return []
+    warnings = warnings_of(view.result) if view.complete else []
+    own = [message for message in view.result.messages if not _NUMBERS.fullmatch(message)]
+    return [*own, *(f"The compiler warns: {' '.join(lines)}" for lines in warnings)]
 
 
 def _step(step: Step) -> State:
@@ -194,7 +198,7 @@ def state_of(view: StepView) -> State:
         "complete": view.complete or view.gone or bool(view.problem),
         "full": view.full,
         "verdict": {"tone": tone, "text": text},
-        "messages": _messages(result) if result else [],
+        "messages": _messages(view),
         "log": result.build_log[:_MAX_LOG] if result else "",
         "diagnoses": [_diagnosis(found) for found in result.diagnoses] if result else [],
         "tests": _tests(view),

@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.text import count, shorten
-from raysteps.report.wording import HOW_SURE, replay_command, watch_command
+from raysteps.report.wording import HOW_SURE, replay_command, warnings_of, watch_command
 from raysteps.results.model import HiddenResult, StepResult, TestResult
 from raysteps.watch.step_view import StepView, Tone, verdict
 
@@ -100,6 +100,7 @@ class TerminalView:
         else:
             for message in view.result.messages:
                 self.line(f"  {message}")
+            self._warnings(view.result)
             self._tests(view.failed_tests)
             self._pictures(view.result)
         self._diagnoses(view.result)
@@ -110,6 +111,12 @@ class TerminalView:
         if view.following is not None:
             step = view.following
             self.command(f"next: {step.number} {step.title}. Press n, or type {watch_command(step.id)}", "bold")
+
+    def _warnings(self, result: StepResult) -> None:
+        for first, *more in warnings_of(result):
+            self.line(f"  warning  {first}", "yellow")
+            for line in more:
+                self.line(f"    {line}")
 
     def _diagnoses(self, result: StepResult) -> None:
         for found in result.diagnoses[:1]:
