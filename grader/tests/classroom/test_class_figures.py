@@ -1,5 +1,6 @@
 """Figures of a class, who needs a look, and where the page comes from."""
 
+import io
 import json
 import shutil
 import sqlite3
@@ -9,10 +10,12 @@ from typing import Any
 import pytest
 from class_documents import STEPS, document, missing, result, student, submission
 from class_fakes import grade_class, write_entry
+from rich.console import Console
 
 from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import class_source, remake_class_page
 from raysteps.classroom.database import ClassDatabase, open_readonly
+from raysteps.classroom.summary import print_summary
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import UsageError
 from raysteps.report.class_overview import (
@@ -122,6 +125,22 @@ def test_a_class_of_an_older_kit_tells_how_many_made_a_mistake_but_not_who() -> 
     facts = convert(told, ClassResults, complete=True)
     assert [(one.submissions, list(one.rows)) for one in common_mistakes(facts)] == [(1, [])]
     assert "too bright" in class_page(facts, lambda name: None)
+
+
+def test_what_could_not_be_read_is_no_step_that_nobody_began() -> None:
+    steps = {_FIRST: result(0, 10, "not-started"), _SECOND: result(0, 10, "not-started")}
+    facts = document(
+        [
+            submission("ann", steps=steps, not_taken=[f"{_FIRST}: camera_rays.cpp is a folder, not a file."]),
+            missing("bob", "unreadable", points=0, final=0, steps=steps, not_taken=["It is a RAR archive."]),
+        ]
+    )
+    ann, bob = table_rows(facts, {}, lambda name: None)
+    assert [cell.words for cell in ann.cells if cell is not None] == ["not taken", "not started"]
+    assert [cell.words for cell in bob.cells if cell is not None] == ["not taken", "not taken"]
+    console = Console(file=(text := io.StringIO()), width=200, color_system=None)
+    print_summary(console, facts, Path("out"))
+    assert "- not started, n not taken" in text.getvalue()
 
 
 def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:

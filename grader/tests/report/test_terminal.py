@@ -42,6 +42,17 @@ def test_a_line_that_does_not_fit_keeps_its_indent(steps: list[Step]) -> None:
     assert said.count(_LONG) == 11
 
 
+def test_what_could_not_be_read_is_not_called_not_started(steps: list[Step]) -> None:
+    why = "intersection.cpp is a folder, not a file, and was not taken."
+    results = [StepResult(step.id, "not-started", 0.0, step.points, step.bonus) for step in steps[:2]]
+    results[1].not_taken, results[1].messages = why, [why]
+    console = Console(file=(text := io.StringIO()), width=10_000, color_system=None)
+    print_table(console, Results.of("ann", results))
+    first, second = (line for line in text.getvalue().splitlines() if "│" in line)
+    assert ("not started" in first, "not taken" in first) == (True, False)
+    assert ("not started" in second, "not taken" in second) == (False, True)
+
+
 def test_a_wrong_picture_of_ones_own_has_the_command_of_its_worst_pixel(steps: list[Step], tmp_path: Path) -> None:
     result = StepResult(steps[1].id, "partial", 1.0, steps[1].points, steps[1].bonus)
     reference = np.full((120, 160, 3), 100, dtype=np.uint8)

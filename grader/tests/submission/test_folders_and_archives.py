@@ -86,6 +86,13 @@ def test_what_is_no_file_is_named(tmp_path: Path, steps: list[Step], monkeypatch
     assert all(f"is a {kind}, not a file" in notes[step] for step, kind in kinds.items())
 
 
+def test_a_file_in_place_of_a_steps_folder_is_named(tmp_path: Path, steps: list[Step]) -> None:
+    good = _good(tmp_path / "good")
+    (good / "steps" / steps[4].id).write_text("int a;")
+    notes = load_submission(good, steps).notes
+    assert notes == {steps[4].id: f"steps/{steps[4].id} is a file, not a folder, and was not taken."}
+
+
 def test_a_submission_that_is_neither_file_nor_folder_is_named(tmp_path: Path, steps: list[Step]) -> None:
     os.mkfifo(tmp_path / "ann")
     for place, kind in ((tmp_path / "ann", "pipe"), (Path("/dev/zero"), "device")):

@@ -180,8 +180,10 @@ def load_entry(name: str, entry: Entry, steps: list[Step]) -> LoadedEntry:
     try:
         if entry.leads_to:
             raise UsageError(ANOTHERS)
-        if not path.exists() or (path.is_dir() and not os.access(path, os.R_OK | os.X_OK)):
-            raise GraderFault(f"{path}: is not there any more, or must not be read")
+        if not path.exists():
+            raise GraderFault(f"{path}: is not there any more")
+        if path.is_dir() and not os.access(path, os.R_OK | os.X_OK):
+            raise GraderFault(f"{path}: this folder must not be read: no permission")
         return LoadedEntry(replace(load_submission(path, steps), name=name))
     except UsageError as error:
         cause: BaseException | None = error

@@ -14,8 +14,8 @@ from raysteps.classroom.class_files import SUBMISSIONS
 from raysteps.classroom.late_policy import BY_FILE
 from raysteps.common.text import count, first_line, number, tenths
 from raysteps.report.class_page import FILE as CLASS_PAGE
-from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent, StepPoints
-from raysteps.results.statuses import Status, in_words
+from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent
+from raysteps.results.statuses import NOT_TAKEN, Status, in_words
 
 # Shows how far a class is: a bar on a terminal, lines elsewhere.
 
@@ -90,12 +90,16 @@ class ProgressMeter:
 
 _MARKS: dict[Status, str] = {"does-not-build": "b", "crashed": "c", "timeout": "t", "not-started": "-"}
 _SIGNS = {str(status): mark for status, mark in _MARKS.items()}
+_NOT_TAKEN = "n"
 _MAX_MISTAKES = 10
 
 
-def _cell(step: StepPoints | None) -> str:
+def _cell(one: GradedSubmission, step_id: str) -> str:
+    step = one.steps.get(step_id)
     if step is None:
         return ""
+    if step_id in one.unread_steps and not step.points:
+        return f"[red]{_NOT_TAKEN}[/red]"
     mark = _SIGNS.get(step.status, "")
     idle = mark == "-" and not step.points  # somebody may have given points for it
     shown = mark if idle else f"{tenths(step.points)} {mark}".rstrip()
@@ -107,6 +111,7 @@ def _legend(document: ClassResults) -> str:
     """Of the marks that the table has."""
     there = {step.status for one in document.submissions for step in one.steps.values()}
     marks = [f"{mark} {in_words(status)}" for status, mark in _MARKS.items() if status in there]
+    marks += [f"{_NOT_TAKEN} {NOT_TAKEN.words}"] if any(one.unread_steps for one in document.submissions) else []
     return ", ".join([*marks, *(["* bonus"] if any(step.bonus for step in document.steps) else [])])
 
 
@@ -134,7 +139,7 @@ def _table(document: ClassResults) -> Table:
         table.add_column("days\nlate", justify="right")
         table.add_column("final", justify="right")
     for one in document.submissions:
-        cells = [escape(one.name), *(_cell(one.steps.get(step.id)) for step in steps), _total(one)]
+        cells = [escape(one.name), *(_cell(one, step.id) for step in steps), _total(one)]
         if late and one.late is not None:
             cells += [str(one.late.days or ""), number(one.late.points)]
         table.add_row(*cells)

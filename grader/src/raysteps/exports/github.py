@@ -27,7 +27,6 @@ from raysteps.grading.withhold import withhold
 from raysteps.report.student import REPORT, student_page
 from raysteps.report.wording import review_lines, total_words
 from raysteps.results.model import Results, StepResult
-from raysteps.results.statuses import in_words
 
 _FIELDS = {
     "classroom": "CLASSROOM",
@@ -146,7 +145,7 @@ def _section(result: StepResult, steps: Mapping[str, Step], picture: str | None)
     """What is wrong with a step, as a block of code: Markdown and HTML in it are only text."""
     said = [step_text(result), *failed_checks(result, steps.get(result.id))]
     name = one_line(title(result, steps))
-    lines = [f"#### {_inline(name)}", "", as_code("\n".join(filter(None, said)) or in_words(result.status), _TEXT)]
+    lines = [f"#### {_inline(name)}", "", as_code("\n".join(filter(None, said)) or result.shown.words, _TEXT)]
     return [*lines, f"[![The pictures of step {result.id[:2]}]({picture})]({picture})", ""] if picture else lines
 
 
@@ -163,7 +162,7 @@ def release_body(
     lines = [f"### {total_words(results.total)}", "", "| step | | points |", "|---|---|---|"]
     for result in results.steps:
         name = _inline(one_line(title(result, steps)))
-        lines.append(f"| {name} | {in_words(result.status)} | {tenths(result.points)} of {tenths(result.max)} |")
+        lines.append(f"| {name} | {result.shown.words} | {tenths(result.points)} of {tenths(result.max)} |")
     results = spread_deduction(results)
     pairs = whole_points(results)
     whole = _whole_test(results, pairs)

@@ -11,7 +11,6 @@ from raysteps.common.text import apportion, clean, count, shorten, tenths
 from raysteps.course.manifest import Step
 from raysteps.report.wording import hand_in_words, review_lines, total_words
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Integration, Results, StepResult, TestResult
-from raysteps.results.statuses import in_words
 
 # Makes text that came from a student's program safe to show somewhere else.
 
@@ -176,7 +175,7 @@ def _rest(result: StepResult, items: list[Item], earned: int, lost: int) -> list
         return []
     share = earned / (earned + lost) if earned + lost else 0.0
     if not items:
-        return [Item("step", in_words(result.status), 1.0, share, step_text(result))]
+        return [Item("step", result.shown.words, 1.0, share, step_text(result))]
     if all_wrong != all_right:
         share = 1.0 if all_wrong else 0.0
     return [Item("step", "the rest", 1.0, share, "Points that no single check accounts for.")]
@@ -238,7 +237,7 @@ def _visible(result: StepResult) -> str:
     for items, noun in kinds:
         if items:
             parts.append(f"{sum(item.passed for item in items)} of {count(len(items), noun)} passed")
-    return ", ".join(parts) or in_words(result.status)
+    return ", ".join(parts) or result.shown.words
 
 
 def failed_checks(result: StepResult, step: Step | None) -> list[str]:
@@ -269,7 +268,7 @@ def summary(results: Results, steps: Mapping[str, Step], *, points: bool = True,
     for result in results.steps:
         name = one_line(title(result, steps))
         if points:
-            lines.append(f"{name}: {tenths(result.points)} of {tenths(result.max)}, {in_words(result.status)}")
+            lines.append(f"{name}: {tenths(result.points)} of {tenths(result.max)}, {result.shown.words}")
         else:
             lines.append(f"{name}: {_visible(result)}")
         if not same and (points or result.status in ("not-started", "does-not-build")):

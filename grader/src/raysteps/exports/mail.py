@@ -28,7 +28,6 @@ from raysteps.report.attempts import history_words
 from raysteps.report.student import REPORT, next_step, student_page
 from raysteps.report.wording import hand_in_words, review_lines, total_words
 from raysteps.results.model import Results, StepResult
-from raysteps.results.statuses import in_words
 
 # Addresses. A roster may hold anything: what is not one plain address is none.
 
@@ -132,7 +131,7 @@ def read_template(path: Path | None) -> Template:
 
 
 def _step_line(result: StepResult, known: Mapping[str, str]) -> str:
-    return f"{known[result.id]}: {tenths(result.points)} of {tenths(result.max)}, {in_words(result.status)}"
+    return f"{known[result.id]}: {tenths(result.points)} of {tenths(result.max)}, {result.shown.words}"
 
 
 def _review_words(results: Results, known: Mapping[str, str]) -> str:
@@ -148,8 +147,8 @@ def _next_words(results: Results, known: Mapping[str, str]) -> str:
     following = next_step(results.steps)
     if following is None:
         return "All of it is right. There is nothing left to do." if results.steps else ""
-    said = f"What to do next: {known[following.id]}, which is {in_words(following.status)}."
-    if following.status == "not-started":
+    said = f"What to do next: {known[following.id]}, which is {following.shown.words}."
+    if following.status == "not-started" and not following.not_taken:
         said = f"What to do next: begin {known[following.id]}."
     found = following.diagnoses[0] if following.diagnoses else None
     if found is None:

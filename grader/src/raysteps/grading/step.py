@@ -121,7 +121,8 @@ class StepGrader:
                 missing = f"{step.file} is still the stub. What to do stands in steps/{step.id}/README.md."
             result.not_taken = self._work.submission.notes.get(step.id, "")
             result.messages = [result.not_taken or missing]
-            result.cumulative = Integration(False, "This step was not started.")
+            why = "No file was taken for this step." if result.not_taken else "This step was not started."
+            result.cumulative = Integration(False, why)
             return None
         remark = self._work.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []

@@ -23,8 +23,8 @@ from raysteps.report.class_overview import (
     total_bars,
 )
 from raysteps.report.page import render_page
-from raysteps.results.class_model import ClassResults, GradedSubmission, StepPoints
-from raysteps.results.statuses import STATUS_WORDS
+from raysteps.results.class_model import ClassResults, GradedSubmission
+from raysteps.results.statuses import NOT_TAKEN, STATUS_WORDS
 
 # The table of a class: what each row shows, and what it is sorted and found by.
 
@@ -85,9 +85,12 @@ def found_by(one: GradedSubmission) -> str:
     return searchable(" ".join(dict.fromkeys(word for word in words if word)))
 
 
-def _cell(result: StepPoints | None) -> Cell | None:
+def _cell(one: GradedSubmission, step: str) -> Cell | None:
+    result = one.steps.get(step)
     if result is None:
         return None
+    if step in one.unread_steps and not result.points:
+        return Cell(result.status, NOT_TAKEN.words, tenths(result.points))
     words = STATUSES.get(result.status, printable(result.status))
     return Cell(result.status, words, tenths(result.points))
 
@@ -119,7 +122,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
                 who=who,
                 more=more,
                 link=link(one.name),
-                cells=[_cell(result) for result in results],
+                cells=[_cell(one, step) for step in steps],
                 total=_points(one.points, one.status),
                 days=days,
                 final="" if one.final is None else number(one.final),

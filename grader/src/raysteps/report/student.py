@@ -49,7 +49,6 @@ from raysteps.results.model import (
     TestResult,
     Total,
 )
-from raysteps.results.statuses import STATUS_WORDS
 from raysteps.results.store import read_results
 
 # The pictures of a submission, as far as there is room for them in one page.
@@ -404,7 +403,7 @@ def step_view(
     result: StepResult, step: Step | None, album: Mapping[Place, ShownImage], has_reference: bool
 ) -> dict[str, object]:
     """All that the page says of a step; `has_reference`: its reader has the whole kit, and every command."""
-    status = STATUS_WORDS[result.status]
+    status = result.shown
     parts = parts_that_count(result, step)
     messages = [clean(message) for message in result.messages]
     once = SaidOnce(messages)

@@ -15,7 +15,6 @@ from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
 from raysteps.report.wording import HOW_SURE, SaidOnce, ended, inspect_worst, percent, total_words, warnings_of
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
-from raysteps.results.statuses import STATUS_WORDS
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 Again = Callable[[str], str]  # the command for a case, by its place beside results.json
@@ -29,8 +28,8 @@ _COLORS = {"passed": "green", "partial": "yellow", "not-started": "dim"}
 
 
 def _status(result: StepResult) -> str:
-    color = _COLORS.get(result.status, "red")
-    return f"[{color}]{STATUS_WORDS[result.status].words}[/{color}]"
+    color = "red" if result.not_taken else _COLORS.get(result.status, "red")
+    return f"[{color}]{result.shown.words}[/{color}]"
 
 
 def _points(result: StepResult) -> str:

@@ -96,6 +96,13 @@ class GradedSubmission:
         return self.points if self.review.automatic is None else self.review.automatic
 
     @property
+    def unread_steps(self) -> set[str]:
+        """The ids of the steps whose files were not taken."""
+        if self.status == "unreadable":
+            return set(self.steps)
+        return {line.partition(": ")[0] for line in self.not_taken} & self.steps.keys()
+
+    @property
     def why_unread(self) -> list[str]:
         """Where nothing could be read; the note may say what to do about it."""
         return [*self.not_taken, *filter(None, [self.note])]

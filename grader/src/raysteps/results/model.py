@@ -9,7 +9,7 @@ from msgspec import Meta
 
 from raysteps import __version__
 from raysteps.common.documents import OPTIONAL, Amount, Count, Share, Text
-from raysteps.results.statuses import Status
+from raysteps.results.statuses import NOT_TAKEN, STATUS_WORDS, Status, StatusWords
 from raysteps.sandbox.task import Isolation
 
 # How an instructor wants a submission to be graded.
@@ -265,6 +265,12 @@ class StepResult:
     messages: list[str] = field(default_factory=list)
     not_taken: str = field(default="", metadata=OPTIONAL)  # why nothing that was handed in could be read as this step
     review: Review | None = field(default=None, metadata=OPTIONAL)  # what a person added; `points` are those that count
+
+    @property
+    def shown(self) -> StatusWords:
+        """The status as people read it: what was handed in and could not be read is not called a step that nobody has
+        begun."""
+        return NOT_TAKEN if self.not_taken and self.status == "not-started" else STATUS_WORDS[self.status]
 
     @property
     def share_of_tests(self) -> float:

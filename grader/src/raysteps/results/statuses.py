@@ -25,6 +25,7 @@ STATUS_WORDS: dict[Status, StatusWords] = {
     "crashed": StatusWords("crashed", "bad", "✗"),
     "timeout": StatusWords("took too long", "bad", "✗"),
 }
+NOT_TAKEN = StatusWords("not taken", "bad", "✗")  # nobody began it, as far as could be read
 
 
 def in_words(status: str) -> str:

@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -53,6 +54,7 @@ class Places:
 
     def __init__(self, steps: list[Step]) -> None:
         self._wanted: dict[tuple[str, ...], tuple[int, str]] = {}
+        self._folders = {step.id for step in steps}
         self._plain = {_plain(step.file): step.id for step in steps}
         for step in steps:
             self._wanted["steps", step.id, step.file] = (0, step.id)
@@ -76,6 +78,11 @@ class Places:
         if len(parts[-1]) > _MAX_NAME or not _lower(parts[-1]).endswith(_ENDINGS):
             return None
         return self._plain.get(_plain(parts[-1]))
+
+    def is_of_a_step(self, parts: tuple[str, ...]) -> str | None:
+        """The step whose folder lies at this path."""
+        above = len(parts) - 2 if parts[-2:-1] == ("steps",) else len(parts) - 1
+        return parts[-1] if above <= MAX_ABOVE and parts[-1] in self._folders else None
 
     def below(self, folder: tuple[str, ...]) -> list[str]:
         """The steps that have an accepted place somewhere below this folder."""
@@ -149,10 +156,18 @@ class _Collector:
             if place is not None:
                 self._take_at(place, entry)
                 continue
+            self._expect_folder(entry)
             near = self._places.near(entry.parts)
             if near is not None:
                 expected = f"steps/{self._steps[near].path.as_posix()}"
                 self._near.setdefault(near, f"{shown(entry.parts)} was not taken: it must be {expected}.")
+
+    def _expect_folder(self, entry: Entry) -> None:
+        """Where a step's folder belongs, a file is not taken; links and the like are told of otherwise."""
+        step = self._places.is_of_a_step(entry.parts)
+        with suppress(RejectedFile):
+            if step is not None and entry.read() is not None:
+                self._problems.setdefault(step, f"{shown(entry.parts)} is a file, not a folder, and was not taken.")
 
     def _take_at(self, place: Place, entry: Entry) -> None:
         best = self._found.get(place.step)
@@ -353,6 +368,8 @@ def _load(path: Path, steps: list[Step], *, may_be_link: bool) -> Submission:
             raise UsageError(
                 f"{path}: is one file; expected a folder with files like {example}, or a zip or tar of it"
             ) from error
+        if isinstance(error, OSError) and error.errno is not None:
+            raise UsageError(f"{path}: cannot be read: {reason(error)}") from error
         why = "an archive may be damaged or cut off"
         raise UsageError(f"{path}: cannot be read as a folder, zip or tar; {why} ({reason(error)})") from error
     return collector.submission(submission_name(path))
