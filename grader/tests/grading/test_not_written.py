@@ -218,3 +218,29 @@ def test_such_a_box_holds_no_reference(kit: BuiltKit, tmp_path: Path) -> None:
     assert any(piece in home for name, piece in pieces.items() if "shadow_ray" in name), "what is looked for is there"
     box = linker.box(["04"], tmp_path, names).read_bytes()
     assert [name for name, piece in pieces.items() if piece in box] == []
+
+
+def test_what_is_not_written_does_no_work_of_what_it_is_made_of(kit: BuiltKit, tmp_path: Path) -> None:
+    """A direction is mirrored by whoever follows a ray: the ray that the reference asks for tells it."""
+    step = next(step for step in kit.steps if step.number == "05")
+    spy = """
+        struct Spy final : Tracer {
+            explicit Spy(const HitRecord& hit) : mirror_there(hit) { mirror_there.fill.ks = 1.0F; }
+            std::optional<HitRecord> closest_hit(const Ray&) const override { return mirror_there; }
+            bool occluded(const Ray&, float) const override { return false; }
+            Color direct_lighting(const HitRecord&, int) override { return k_black; }
+            Color trace(const Ray& ray, int) override { return seen = ray, k_black; }
+            int max_ray_depth() const override { return 2; }
+            Color background() const override { return k_black; }
+            HitRecord mirror_there;
+            Ray seen;
+        } spy(hit);
+        static_cast<void>(trace(spy, Ray{hit.position, hit.ray_direction}, 1));
+        return spy.seen;
+    """
+    head = "Ray reflected_ray(const HitRecord& hit) {\n"
+    result = _graded(kit, step, _without(kit, step, "trace", head, head + spy), tmp_path)
+    assert result.points == 0
+    assert result.status == "failed"
+    asked = {item.name: item.share for item in result.hidden if item.kind == "function"}
+    assert asked == {"reflected_ray": 0.0, "trace": 0.0}

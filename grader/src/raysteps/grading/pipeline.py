@@ -227,15 +227,20 @@ class HiddenStepGrader(StepGrader):
             )
         return result
 
-    # A function that is not written costs its own points only: for all others, the reference's takes its place.
+    # A function that is not written costs its own points only: for those after it, which may call it, the reference's
+    # takes its place. Those before it are what it is made of, and could be made of the reference's, turned round.
+
+    def _after_missing(self) -> list[str]:
+        functions = self.step.functions
+        return list(functions[max(map(functions.index, self._unfinished), default=len(functions)) + 1 :])
 
     def _completed(self, binary: Path) -> Programs | None:
         """The programs of the tests and of the judge with the reference's function in place of the one that is not
-        written. None where it is not a single one, or where steps are no libraries: with more of them missing, what
-        is left would be taken for most of the work."""
+        written. None where it is not a single one or the last, or where steps are no libraries: with more of them
+        missing, what is left would be taken for most of the work."""
         step, unfinished = self.step, self._unfinished
         names = self._work.kit.linker_names(step, unfinished)
-        if self._plan is None or not names or not len(unfinished) == 1 < len(step.functions):
+        if self._plan is None or not names or len(unfinished) != 1 or not self._after_missing():
             return None
         programs: Programs = {}
         for kind in ("test", "worker"):
@@ -246,9 +251,10 @@ class HiddenStepGrader(StepGrader):
         return programs
 
     def _run_tests_again(self, program: Program) -> None:
-        """Those of functions that are written."""
+        """Those of functions after the one that is not written."""
         tests = self._work.kit.tests[self.step.id]
-        own = [test for test in self._result.tests if not set(tests[test.name]) & set(self._unfinished)]
+        needed, after = set(self._unfinished), set(self._after_missing())
+        own = [one for one in self._result.tests if after & set(tests[one.name]) and not needed & set(tests[one.name])]
         if all(test.passed for test in own):
             return
         again = {test.name: test for test in run_tests(self._work.sandbox, program, tests, self._limits)}
@@ -263,8 +269,7 @@ class HiddenStepGrader(StepGrader):
         ask = ask_student(sandbox, worker, limits)
         if completed is None:
             return ask
-        written = [name for name in self.step.functions if name not in self._unfinished]
-        return ask_some(ask, ask_student(sandbox, completed["worker"], limits), written)
+        return ask_some(ask, ask_student(sandbox, completed["worker"], limits), self._after_missing())
 
     # A function that is wrong costs its own hidden points only: those after it, which may call it, are asked again with
     # the reference's in its place.
@@ -282,7 +287,8 @@ class HiddenStepGrader(StepGrader):
             worker = None
             if item.outcome != "timeout":
                 replaced = {other.name for other in wrong[:before] if not other.spares_nothing}
-                worker = self._worker_with(binary, missing | replaced)
+                replaced |= missing if item.name in self._after_missing() else set()
+                worker = self._worker_with(binary, replaced)
             if worker is None:
                 continue
             again = run_hidden_tests(
