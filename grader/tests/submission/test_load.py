@@ -258,6 +258,7 @@ def test_names_that_are_not_utf8(tmp_path: Path) -> None:
     folder = Path(os.fsdecode(os.fsencode(tmp_path) + b"/an\xffna"))
     assert submission_name(folder) == "an?na"
     assert submission_name(Path("/")) == "submission"
+    assert submission_name(tmp_path / "ann\nall passed") == "ann all passed", "a name stands in one line"
 
 
 def test_one_archive_in_a_folder_is_the_submission(tmp_path: Path, steps: list[Step]) -> None:

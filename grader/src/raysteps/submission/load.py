@@ -9,7 +9,7 @@ from pathlib import Path
 
 from raysteps.common.documents import Text
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import did_you_mean, join_and, printable
+from raysteps.common.text import did_you_mean, join_and, one_line
 from raysteps.course.manifest import Step
 from raysteps.submission.archives import DAMAGED, FOREIGN_ENDINGS, archive_entries
 from raysteps.submission.encoding import decode
@@ -236,7 +236,7 @@ class _Collector:
 def submission_name(path: Path) -> str:
     """The name of the folder, or of the archive without its ending."""
     # A name that is not UTF-8 carries halves of surrogates, which neither JSON nor a terminal takes.
-    name = printable(path.resolve().name.encode("utf-8", "replace").decode("utf-8")).strip()
+    name = one_line(path.resolve().name.encode("utf-8", "replace").decode("utf-8")).strip()
     for ending in ARCHIVE_ENDINGS:
         if name.lower().endswith(ending) and os.path.isfile(path):  # noqa: PTH113  # Path.is_file may raise
             name = name[: -len(ending)]
@@ -351,7 +351,7 @@ def load_submission(path: Path, steps: list[Step]) -> Submission:
         inner = _load(packed[0], steps, may_be_link=False)
         if inner.sources or inner.notes:
             return replace(inner, name=submission.name)
-        more = f", nor does {printable(packed[0].name)} in it"
+        more = f", nor does {one_line(packed[0].name)} in it"
     else:
         more = f", but {len(packed)} archives, of which none is taken" if packed else ""
     raise UsageError(f"{path}: holds no step{more}; expected files like steps/{steps[0].path.as_posix()}")
