@@ -7,7 +7,15 @@ import pytest
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import Step
-from raysteps.course.stubs import called_functions, make_stub, same_code, unfinished_functions, uses, without_markers
+from raysteps.course.stubs import (
+    borrowed_functions,
+    called_functions,
+    make_stub,
+    same_code,
+    unfinished_functions,
+    uses,
+    without_markers,
+)
 
 SOLUTION = """#include "a.hpp"
 
@@ -181,3 +189,9 @@ def test_which_functions_are_called() -> None:
 )
 def test_where_a_name_is_used_and_where_declared(source: str, used: bool) -> None:
     assert [source[at : at + 3] for _, at in uses(source, {"far"})] == ["far"] * used
+
+
+@pytest.mark.parametrize(("source", "borrowed"), [("int f() { return far(1); }", True), ("int far(int);\n", False)])
+def test_a_name_is_borrowed_where_the_source_has_none_of_its_own(source: str, borrowed: bool) -> None:
+    assert (borrowed_functions(source, {"far"}) == {"far"}) is borrowed
+    assert not borrowed_functions(f"int far(int x) {{ return x; }}\n{source}", {"far"})

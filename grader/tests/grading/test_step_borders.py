@@ -1,5 +1,6 @@
 """What a step may ask of the kit, and what it must define."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from raysteps.results.model import HiddenResult, Settings, StepResult
 from raysteps.results.store import read_results
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission
+from raysteps.toolchain.compile import StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 STEP = "02-intersection"
@@ -60,13 +62,20 @@ def test_a_function_of_a_later_step_is_out_of_reach(
     ]
 
 
+def _without_libraries(kit: BuiltKit) -> BuiltKit:
+    """As on a system whose linker closes no step, such as Windows."""
+    return replace(kit, description=replace(kit.description, seal=None))
+
+
+@pytest.mark.parametrize("libraries", [True, False])
 @pytest.mark.parametrize(
     "use",
     ["return closest_hit_in_octree({}, ray);", "static auto* volatile find = &closest_hit_in_octree; (void)find;"],
 )
 def test_what_does_the_work_of_a_step_elsewhere_is_out_of_its_reach(
-    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, use: str
+    kit: BuiltKit, tmp_path: Path, make_submission: MakeSubmission, solved: Sources, use: str, libraries: bool
 ) -> None:
+    kit = kit if libraries else _without_libraries(kit)
     body = "std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {\n"
     assert body in solved[_BVH]
     source = '#include "steps/06-octree/octree.hpp"\n' + solved[_BVH].replace(body, f"{body}{use}\n")
@@ -78,6 +87,17 @@ def test_what_does_the_work_of_a_step_elsewhere_is_out_of_its_reach(
         f"It does not build: bvh.cpp:{place}: step 09-bvh may not call closest_hit_in_octree of step 06-octree, which "
         f"does what step 09-bvh is about. Write it in bvh.cpp itself.\n{shown}"
     ]
+
+
+def test_a_function_of_ones_own_may_have_the_name_of_one_that_is_barred(
+    kit: BuiltKit, tmp_path: Path, solved: Sources
+) -> None:
+    bvh = kit.steps[8]
+    own = "namespace { int build_octree() { return 1; } [[maybe_unused]] const int k_own = build_octree(); }\n"
+    for one in (kit, _without_libraries(kit)):
+        build = StudentBuild(one, LimitsOnly(), tmp_path)
+        compiled = build.compile(bvh, (solved[_BVH] + own).encode(), one.limits_of(bvh))
+        assert compiled.binary is not None, compiled
 
 
 def test_a_step_may_ask_for_what_no_manifest_bars(kit: BuiltKit) -> None:

@@ -196,16 +196,27 @@ def _is_declared(code: Sequence[str], at: int) -> bool:
     return bool(words) and all(word.isidentifier() and word not in _WORDS_OF_CODE for word in words)
 
 
-def uses(source: str, names: Collection[str]) -> Iterator[tuple[str, int]]:
-    """Where the source asks for something by one of these names, not where it declares or defines that."""
+def _places(source: str, names: Collection[str]) -> Iterator[tuple[str, int, bool]]:
+    """Where these names stand, and whether something is declared or defined there."""
     placed = list(placed_tokens(source))
     code = [text for text, _ in placed]
-    return ((word, placed[at][1]) for at, word in enumerate(code) if word in names and not _is_declared(code, at))
+    return ((word, placed[at][1], _is_declared(code, at)) for at, word in enumerate(code) if word in names)
+
+
+def uses(source: str, names: Collection[str]) -> Iterator[tuple[str, int]]:
+    """Where the source asks for something by one of these names, not where it declares or defines that."""
+    return ((word, at) for word, at, is_declared in _places(source, names) if not is_declared)
 
 
 def called_functions(source: str, names: Collection[str]) -> set[str]:
     """Those that the source calls by name."""
     return {name for name, _ in uses(source, names)}
+
+
+def borrowed_functions(source: str, names: Collection[str]) -> set[str]:
+    """Those that the source calls by name and has not of its own."""
+    own = {name for name, _, is_declared in _places(source, names) if is_declared}
+    return called_functions(source, names) - own
 
 
 def same_code(one: str, other: str) -> bool:

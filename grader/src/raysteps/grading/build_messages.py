@@ -235,12 +235,16 @@ def forbidden_message(step: Step, names: tuple[str, ...], owners: dict[str, tupl
             return f"It does not build: it calls a function of step {other.id}, which comes later."
         if other.index < step.index:
             mine = [owners[one][1] for one in names if one in owners and owners[one][0] == other]
-            functions = join_and(list(map(function_name, mine)))
-            return (
-                f"It does not build: step {step.id} may not call {functions} of step {other.id}, which "
-                f"{'do' if len(mine) > 1 else 'does'} what step {step.id} is about. Write it in {step.file} itself."
-            )
+            return barred_message(step, other.id, list(map(function_name, mine)))
     return "It does not build: it calls a function of the kit that is not for the steps."
+
+
+def barred_message(step: Step, other: str, functions: list[str]) -> str:
+    """A step that calls these functions of another, earlier one, by its id, though its manifest bars them."""
+    return (
+        f"It does not build: step {step.id} may not call {join_and(functions)} of step {other}, which "
+        f"{'do' if len(functions) > 1 else 'does'} what step {step.id} is about. Write it in {step.file} itself."
+    )
 
 
 def missing_message(names: tuple[str, ...]) -> str:
@@ -301,6 +305,10 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
         owners = {name: (other, shown) for other in others for name, shown in kit.functions(other).items()}
         wanted = {*map(own_name, compiled.forbidden), *([_COUNTERS] if _of_counters(compiled.forbidden[0]) else [])}
         return _at_its_use(forbidden_message(step, compiled.forbidden, owners), step, wanted, source)
+    if compiled.barred:
+        other = next(place for place, name in step.barred if name == compiled.barred[0])
+        functions = [name for place, name in step.barred if place == other and name in compiled.barred]
+        return _at_its_use(barred_message(step, other, functions), step, functions, source)
     if compiled.unreadable:
         return "It does not build: its object holds more names than a step can have, or cannot be read."
     if compiled.undefined:

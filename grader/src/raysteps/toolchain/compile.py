@@ -14,7 +14,7 @@ from raysteps.common.platform import executable
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
-from raysteps.course.stubs import included, pristine_stub
+from raysteps.course.stubs import borrowed_functions, included, pristine_stub
 from raysteps.sandbox.task import AccountingSandbox, Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.kit_artifacts import NOTHING, BuiltKit, Kind, ProgramLinker, Replaced
 from raysteps.toolchain.limits import StepLimits
@@ -149,6 +149,7 @@ class Compiled:
     missing: tuple[str, ...] = ()  # functions that the step should define
     undefined: tuple[str, ...] = ()  # functions that the step calls and nobody defines
     unreadable: bool = False  # an object that no compiler makes of what a student writes
+    barred: tuple[str, ...] = ()  # functions that the step may not call, as step.toml calls them; see _by_its_source
 
 
 @dataclass(frozen=True)
@@ -231,6 +232,14 @@ def own_libraries(kit: BuiltKit) -> KeptLibraries:
 _NO_WORK = TaskResult(Outcome(0, False, "", "", 0.0), {}, 0.0, "")
 
 
+def _by_its_source(step: Step, source: bytes, raw: Path, ran: TaskResult) -> Compiled:
+    """Where steps are no libraries, nothing but the source tells that it calls what it may not: else a student of such
+    a system would hear of it in the grade only."""
+    text = source.decode("utf-8", "replace")
+    barred = tuple(sorted(borrowed_functions(text, step.barred_functions)))
+    return Compiled(None if barred else raw, ran, barred=barred)
+
+
 class StudentBuild:
     """Builds into a folder of its own."""
 
@@ -274,7 +283,9 @@ class StudentBuild:
         if ran.outcome.code != 0 or ran.outcome.timed_out or not data:
             return Compiled(None, ran)
         raw = self._write(f"{step.number}.o", data)
-        return Compiled(raw, ran) if description.seal is None else self._close(step, raw, ran, limits)
+        return (
+            _by_its_source(step, source, raw, ran) if description.seal is None else self._close(step, raw, ran, limits)
+        )
 
     def _close(self, step: Step, raw: Path, compiled: TaskResult, limits: StepLimits) -> Compiled:
         """Turns an object into a library, unless it asks for what is not its own or lacks what it should have."""
