@@ -203,7 +203,8 @@ TEST_CASE("closest_hit_in_octree: of several hits at one distance the first in t
 
 TEST_CASE("closest_hit_in_octree: a box that begins at the nearest hit is searched as well",
           "[06-octree][closest_hit_in_octree]") {
-    // Two triangles in one plane, each in a box of its own: one box begins before the plane, the other one in it.
+    // Two triangles in the plane between the lower boxes and the upper ones: the first of the scene is in the upper
+    // ones. The boxes stand as split() cuts them.
     Scene scene;
     Fill fill;
     fill.kd = 0.25F;  // to tell the first of the scene
@@ -211,12 +212,18 @@ TEST_CASE("closest_hit_in_octree: a box that begins at the nearest hit is search
         scene.add(std::make_unique<Triangle>(glm::vec3{-1.0F, -1.0F, 0.0F}, glm::vec3{1.0F, -1.0F, 0.0F},
                                              glm::vec3{0.0F, 1.0F, 0.0F}, one));
     }
-    const Box whole{{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}};
-    const Box below{whole.min, {1.0F, 1.0F, 0.0F}};
-    const Node root{whole, {}, {{whole, {scene.surfaces()[1]}, {}}, {below, {scene.surfaces()[0]}, {}}}};
-    const std::optional<HitRecord> hit = closest_hit_in_octree(root, {{0.0F, 0.0F, 5.0F}, k_down});
+    Node root{{{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}}, {}, {}};
+    for (const float z : {-1.0F, 0.0F}) {
+        const SurfaceList one{scene.surfaces()[z < 0.0F ? 1 : 0]};
+        for (const float y : {-1.0F, 0.0F}) {
+            for (const float x : {-1.0F, 0.0F}) {
+                root.children.push_back({{{x, y, z}, {x + 1.0F, y + 1.0F, z + 1.0F}}, one, {}});
+            }
+        }
+    }
+    const std::optional<HitRecord> hit = closest_hit_in_octree(root, {{0.25F, -0.25F, -5.0F}, -k_down});
     REQUIRE(hit.has_value());
-    INFO("both are hit at distance 5, where the second box begins; its triangle comes first in the scene");
+    INFO("both are hit at distance 5, where the upper boxes begin; their triangle comes first in the scene");
     CHECK(hit->fill.kd == 0.25F);
 }
 
