@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from read_documents import FOLDER, ReadDocuments
 
 from raysteps.course.manifest import Step, kit_steps, read_steps
 from raysteps.course.project import Project, here
@@ -19,6 +20,13 @@ pytest_plugins = ["browser", "play_pages", "students_kit"]
 
 Sources = dict[str, str]
 MakeSubmission = Callable[[str, Sources], Path]
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """What is read is written down where `./raysteps test` wants to know it."""
+    cache = getattr(config, "cache", None)
+    if cache is not None and config.getini("cache_dir") != ".pytest_cache":
+        config.pluginmanager.register(ReadDocuments(Path.cwd().parent, cache.mkdir(FOLDER)))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from rich.console import Console
@@ -36,7 +36,7 @@ from tools.selftest.programs import (
     use_caches,
     windows_checks,
 )
-from tools.selftest.stamps import Belongs, Sources, Stamps
+from tools.selftest.stamps import EVERY_TEXT, Belongs, Sources, Stamps
 from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.
@@ -96,6 +96,19 @@ _QUICK, _SLOW = "not slow", "slow"  # marks
 _SLOW_TESTS = "hostile submissions and packages for other systems"
 
 
+def _not_seen(folder: Path, inputs: Mapping[str, Belongs]) -> dict[str, set[str]]:
+    """Documents that were opened for files of tests that are not taken to read them: they would not run again when one
+    changes."""
+    found: dict[str, set[str]] = {}
+    for path in (folder / "d" / "documents").glob("*.json"):  # read_documents.py of the tests writes them
+        for file, documents in json.loads(path.read_text("utf-8")).items():
+            place = f"grader/{file}"
+            missed = {document for document in documents if place in inputs and not inputs[place](document)}
+            if missed:
+                found.setdefault(place, set()).update(missed)
+    return found
+
+
 def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report:
     """The tests with any of these marks, of all files that are not as they were when they passed. All in one run, in
     which no processor waits for the last slow test of the one half before the other begins."""
@@ -117,9 +130,13 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
         failed = Path(folder) / "v" / "cache" / "lastfailed"  # the names of tests; pytest writes it where there are any
         named = json.loads(failed.read_text("utf-8")) if failed.is_file() else ()
         wrong = {name.partition("::")[0] for name in named}
+        missed = _not_seen(Path(folder), inputs)
     ended = not outcome.timed_out and (outcome.code in (0, _NO_TESTS) or (outcome.code == 1 and wrong))
-    right = [place for place, file in files.items() if ended and file not in wrong]
+    right = [place for place, file in files.items() if ended and file not in wrong and place not in missed]
     stamps.keep({name: inputs[place] for place in right for name in names[place]}, digests)
+    if ended and not wrong and missed:
+        lines = [f"{place}: it reads {', '.join(sorted(missed[place]))}; name that there" for place in sorted(missed)]
+        return Report("failed", "\n".join(lines))
     if ended and not wrong:
         same = len(inputs) - len(changed)
         amount = re.findall(r"^(\d.*?) in \d.*$", outcome.stdout, re.MULTILINE)[-1:]  # the last line of a run
@@ -172,7 +189,8 @@ class _Inputs:
     def __call__(self, *modules: str, texts: bool = False) -> Belongs:
         inputs = self._sources.of_modules(*modules)
         inputs.code |= self._own
-        inputs.texts |= texts
+        if texts:
+            inputs.texts.add(EVERY_TEXT)
         return lambda place: not place.startswith("grader/tests/") and inputs.belongs(place)
 
 

@@ -5,7 +5,7 @@ import os
 import subprocess
 import sys
 import time
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import pytest
 from rich.console import Console
@@ -15,11 +15,13 @@ from tools.selftest import run as selftest_checks
 from tools.selftest import stamps
 from tools.selftest.checks import Check, Report, Verdict, run_checks
 from tools.selftest.run import run_pytest
-from tools.selftest.stamps import Sources, Stamps
+from tools.selftest.stamps import Inputs, Sources, Stamps
 
 _FILES = {
     "README.md": "# A kit\n",
     "docs/page.md": "A page\n",
+    "docs/other.md": "Another\n",
+    "docs/figures/one.png": "",
     "steps/01-one/README.md": "A handout\n",
     "steps/01-one/one.cpp": "int one();\n",
     "grader/src/raysteps/__init__.py": "",
@@ -30,7 +32,13 @@ _FILES = {
     "grader/src/raysteps/deep/__init__.py": "",
     "grader/src/raysteps/deep/below.py": 'PROGRAM = "keeper.py"\n',
     "grader/src/raysteps/deep/keeper.py": "",
-    "grader/tests/conftest.py": "",
+    "grader/src/raysteps/cli/__init__.py": "",
+    "grader/src/raysteps/cli/app.py": (
+        'COMMANDS = (Command("site", "the docs", "raysteps.site"), Command("list", "", "raysteps.two"))\n'
+    ),
+    "grader/src/raysteps/site.py": 'def run(root): return (root / "docs").glob("*.md")\n',
+    "grader/tests/conftest.py": 'pytest_plugins = ["sharing"]\n',
+    "grader/tests/sharing.py": "import pytest\n@pytest.fixture\ndef shared():\n    from raysteps import other\n",
     "grader/tests/helper.py": "def help() -> None:\n    from raysteps import one\n",
     "grader/tests/test_two.py": "from raysteps import two\n",
     "grader/tests/test_helped.py": "import helper\n",
@@ -38,6 +46,12 @@ _FILES = {
     "grader/tests/test_command.py": 'WORDS = ["-P", "-m", "raysteps", "list"]\n',
     "grader/tests/test_script.py": 'def run(root): return root / "raysteps"\n',
     "grader/tests/test_documents.py": 'NAMES = ("docs/page.md",)\n',
+    "grader/tests/test_handout.py": 'def test(project, step): (project.steps / step / "README.md").read_text()\n',
+    "grader/tests/test_page.py": 'def test(root, name): (root / "docs" / f"{name}.md").read_text()\n',
+    "grader/tests/test_every.py": 'def test(root): list(root.rglob("*.md"))\n',
+    "grader/tests/test_site.py": 'from raysteps.cli.app import main\ndef test(): main(["site", "--out", "x"])\n',
+    "grader/tests/test_listing.py": 'from raysteps.cli.app import main\ndef test(): main(["list"])\n',
+    "grader/tests/test_shared.py": "def test(shared): assert shared\n",
     "grader/tests/test_made.py": 'def load(name): return __import__(f"raysteps.deep.{name}")\n',
 }
 
@@ -55,6 +69,13 @@ def small(tmp_path: Path) -> Project:
 
 def _sources(project: Project) -> Sources:
     return Sources(project, Stamps(project).files())
+
+
+@pytest.fixture(scope="module")
+def inputs(project: Project) -> dict[str, Inputs]:
+    """Of all tests of the kit."""
+    sources = _sources(project)
+    return {place: sources.of_test(place) for place in sources.tests()}
 
 
 def _counts(project: Project, test: str, place: str) -> bool:
@@ -76,17 +97,35 @@ def test_what_is_not_imported_does_not(small: Project, test: str) -> None:
 @pytest.mark.parametrize("test", ["command", "script"])
 def test_all_counts_for_who_starts_the_program(small: Project, test: str) -> None:
     assert _counts(small, test, "grader/src/raysteps/other.py")
-    assert _counts(small, test, "README.md")
+
+
+def test_a_fixture_counts_for_who_asks_for_it(small: Project) -> None:
+    assert _counts(small, "shared", "grader/src/raysteps/other.py")
 
 
 def test_a_name_that_is_made_when_it_runs_may_be_any(small: Project) -> None:
     assert _counts(small, "made", "grader/src/raysteps/deep/keeper.py")
 
 
-def test_documents_count_for_who_names_one_and_all_else_for_everybody(small: Project) -> None:
-    assert _counts(small, "documents", "steps/01-one/README.md")
-    assert not _counts(small, "two", "steps/01-one/README.md")
-    assert not _counts(small, "two", "docs/page.md")
+@pytest.mark.parametrize(
+    ("test", "read"),
+    [
+        ("two", []),
+        ("documents", ["docs/figures/one.png", "docs/page.md"]),
+        ("page", ["docs/figures/one.png", "docs/other.md", "docs/page.md"]),
+        ("handout", ["docs/figures/one.png", "steps/01-one/README.md"]),
+        ("every", ["README.md", "docs/figures/one.png", "docs/other.md", "docs/page.md", "steps/01-one/README.md"]),
+        ("site", ["docs/figures/one.png", "docs/other.md", "docs/page.md"]),
+        ("listing", []),
+        ("command", []),
+    ],
+)
+def test_documents_count_for_who_names_them(small: Project, test: str, read: list[str]) -> None:
+    """By a file, a folder or a pattern, itself or by a command; and pictures, which documents show."""
+    assert [place for place in sorted(_FILES) if stamps.is_text(place) and _counts(small, test, place)] == read
+
+
+def test_what_is_neither_document_nor_python_counts_for_everybody(small: Project) -> None:
     for place in ("steps/01-one/one.cpp", "grader/src/raysteps/page.html", "grader/tests/conftest.py", "new"):
         assert _counts(small, "two", place), place
 
@@ -246,17 +285,49 @@ def test_only_files_of_tests_that_may_end_otherwise_are_run(small: Project, monk
     assert _pytest(small, monkeypatch, "slow")[1] == _pytest(small, monkeypatch)[1] == set()
 
 
-def test_not_everything_depends_on_everything(project: Project) -> None:
+def test_who_reads_a_document_unseen_fails(small: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A test, or a fixture that it shares: it would not run again when the document changes."""
+    tests = small.root / "grader" / "tests"
+    for path in tests.glob("test_*.py"):
+        path.unlink()
+    helpers = Path(__file__).parents[1] / "helpers"
+    (tests / "read_documents.py").write_bytes((helpers / "read_documents.py").read_bytes())
+    (tests / "conftest.py").write_text(
+        "import pathlib, pytest\nfrom read_documents import *\n"
+        "def pytest_configure(config):\n"
+        "    out = config.cache.mkdir(FOLDER)\n"
+        "    config.pluginmanager.register(ReadDocuments(pathlib.Path.cwd().parent, out))\n"
+        "@pytest.fixture(scope='session')\n"
+        "def page():\n    return open('/'.join(('..', 'do' + 'cs', 'page.m' + 'd'))).read()\n",
+        encoding="utf-8",
+    )
+    for name in ("a", "b"):
+        (tests / f"test_{name}.py").write_text("def test(page):\n    assert page\n", encoding="utf-8")
+    (tests / "test_c.py").write_text(
+        "PAGE = '../docs/page.md'\ndef test(page):\n    assert open(PAGE).read() == page\n", encoding="utf-8"
+    )
+    for _ in range(2):
+        report, _ran = _pytest(small, monkeypatch)
+        assert report.verdict == "failed"
+        assert [line.partition(";")[0] for line in report.detail.splitlines()] == [
+            f"grader/tests/test_{name}.py: it reads docs/page.md" for name in ("a", "b")
+        ]
+
+
+def test_a_changed_page_is_read_again_by_whom_it_may_concern(inputs: dict[str, Inputs]) -> None:
+    again = [place for place in inputs if inputs[place].belongs("docs/watch.md")]
+    assert len(again) < len(inputs) // 4, again
+    named = {PurePosixPath(place).stem for place in again}
+    assert {"test_links", "test_site", "test_typed_commands", "test_commands", "test_kit_pages"} <= named
+
+
+def test_not_everything_depends_on_everything(inputs: dict[str, Inputs]) -> None:
     """Else no stamp would ever help."""
-    sources = _sources(project)
-    narrow = [place for place in sources.tests() if not sources.of_test(place).whole]
-    assert len(narrow) > 30, "nearly every test file counts the whole package"
+    assert sum(not one.whole for one in inputs.values()) > 30, "nearly every test file counts the whole package"
 
 
-def test_who_builds_a_kit_depends_on_what_builds_it(project: Project) -> None:
+def test_who_builds_a_kit_depends_on_what_builds_it(inputs: dict[str, Inputs]) -> None:
     """conftest.py builds one for whoever asks for it, so every test file counts that."""
-    sources = _sources(project)
-    for place in sources.tests():
-        inputs = sources.of_test(place)
+    for place, one in inputs.items():
         for module in ("build_kit", "compile", "cmake", "link", "kit_artifacts"):
-            assert inputs.belongs(f"grader/src/raysteps/toolchain/{module}.py"), (place, module)
+            assert one.belongs(f"grader/src/raysteps/toolchain/{module}.py"), (place, module)
