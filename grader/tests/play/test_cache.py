@@ -35,8 +35,19 @@ def test_what_was_used_now_and_before_stays(tmp_path: Path) -> None:
     for _ in range(3):  # the same page again is no other one
         clear(tmp_path, both)
         assert _cache(tmp_path) == sorted(["objects/.four.o.half", "objects/two.o", "page-2/a", "used.json", *written])
-    clear(tmp_path, [tmp_path / "objects" / "three"])
-    assert _cache(tmp_path) == sorted(["objects/.four.o.half", "used.json", *written])
+    clear(tmp_path, [tmp_path / "page-3"])
+    assert _cache(tmp_path) == sorted(["objects/.four.o.half", "objects/two.o", "used.json", *written])
+
+
+def test_objects_of_a_few_pages_stay(tmp_path: Path) -> None:
+    """For whoever makes several kinds of them, one after the other."""
+    (tmp_path / "objects").mkdir()
+    for number in (1, 2, 3, 4, 1, 5):
+        (tmp_path / f"page-{number}").mkdir(exist_ok=True)
+        (tmp_path / "objects" / f"{number}.o").touch()
+        clear(tmp_path, [tmp_path / f"page-{number}", tmp_path / "objects" / str(number)])
+    assert _cache(tmp_path) == ["objects/1.o", "objects/3.o", "objects/4.o", "objects/5.o", "used.json"]
+    assert sorted(path.name for path in tmp_path.glob("page-*")) == ["page-1", "page-5"]
 
 
 def test_a_folder_is_written_once(tmp_path: Path) -> None:

@@ -251,9 +251,11 @@ def fetch_header(header: Header, target: Path, say: Callable[[str], None] = lamb
     write_bytes(target, _checked(header.address, header.sha512, header.instead, say))
 
 
-# What this page and the last one that was another are made of stays, for who goes back.
+# What this page and the last one that was another are made of stays, for who goes back. Objects of a few more stay: a
+# whole kit makes its own page, that of a course with other parts, that of a release, and the figures of the site.
 
 _RECORD = "used.json"
+_PAGES, _PAGES_OF_OBJECTS = 2, 4
 
 
 def clear(cache: Path, used: Iterable[Path]) -> None:
@@ -263,9 +265,10 @@ def clear(cache: Path, used: Iterable[Path]) -> None:
     record = cache / _RECORD
     lists = json.loads(record.read_text("utf-8")) if record.is_file() else []
     if lists[:1] != [now]:
-        lists = [now, *lists[:1]]
+        lists = [now, *(some for some in lists if some != now)][:_PAGES_OF_OBJECTS]
         write_json(record, lists)
-    kept = {name for some in lists for name in some} | {record.stem}
+    objects = (name for some in lists for name in some if name.startswith("objects/"))
+    kept = {record.stem, *objects, *(name for some in lists[:_PAGES] for name in some)}
     for folder in {(cache / name).parent for name in kept}:
         for path in folder.iterdir():
             name = path.relative_to(cache).as_posix()
