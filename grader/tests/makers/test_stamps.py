@@ -56,6 +56,9 @@ _FILES = {
 }
 
 
+_READ_ONCE = pytest.mark.xdist_group("stamps")  # all sources of the kit
+
+
 @pytest.fixture
 def small(tmp_path: Path) -> Project:
     """A repository of a few files."""
@@ -314,6 +317,7 @@ def test_who_reads_a_document_unseen_fails(small: Project, monkeypatch: pytest.M
         ]
 
 
+@_READ_ONCE
 def test_a_changed_page_is_read_again_by_whom_it_may_concern(inputs: dict[str, Inputs]) -> None:
     again = [place for place in inputs if inputs[place].belongs("docs/watch.md")]
     assert len(again) < len(inputs) // 4, again
@@ -321,11 +325,13 @@ def test_a_changed_page_is_read_again_by_whom_it_may_concern(inputs: dict[str, I
     assert {"test_links", "test_site", "test_typed_commands", "test_commands", "test_kit_pages"} <= named
 
 
+@_READ_ONCE
 def test_not_everything_depends_on_everything(inputs: dict[str, Inputs]) -> None:
     """Else no stamp would ever help."""
     assert sum(not one.whole for one in inputs.values()) > 30, "nearly every test file counts the whole package"
 
 
+@_READ_ONCE
 def test_who_builds_a_kit_depends_on_what_builds_it(inputs: dict[str, Inputs]) -> None:
     """conftest.py builds one for whoever asks for it, so every test file counts that."""
     for place, one in inputs.items():
