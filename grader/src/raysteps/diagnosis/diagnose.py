@@ -52,6 +52,10 @@ _OF_VECTORS = {
 }
 
 
+# What moves one picture moves all of them.
+_OF_ALL_PICTURES = {"shifted-by-one", "shifted-by-half"}
+
+
 def _name(changed: Transformed, step: Step, picture: Picture) -> str:
     """Where colours are directions, another order of the channels is another order of the axes."""
     shows_vectors = step.index == 1 or "normals" in picture.case.args
@@ -68,6 +72,7 @@ def transformations(
         changed = transformation_of(picture, _before(kit, step, picture))
         if changed is not None:
             found.setdefault((_name(changed, step, picture), changed.detail), []).append(name)
+    found = {key: seen for key, seen in found.items() if key[0] not in _OF_ALL_PICTURES or len(seen) == len(pictures)}
     for (name, detail), seen_in in sorted(found.items(), key=lambda item: -len(item[1]))[:_MAX]:
         found_one = in_words(name, detail, seen_in)
         is_before = step.index in BEFORE and name == BEFORE[step.index][0]
