@@ -76,8 +76,11 @@ def test_a_launcher_that_is_gone_is_forgotten(tmp_path: Path, monkeypatch: pytes
     assert tree.is_configured()
 
 
-@pytest.mark.skipif(not (shutil.which("ccache") and shutil.which("ninja")), reason="needs ccache and ninja")
-def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def _cached(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With an empty cache, as `./raysteps test` uses it."""
+    if not (shutil.which("ccache") and shutil.which("ninja")):
+        pytest.skip("needs ccache and ninja")
     own = [name for name in os.environ if name.startswith("CCACHE_")]
     for name in (*own, "CMAKE_CXX_COMPILER_LAUNCHER", "CCACHE_DIR", "CCACHE_NOHASHDIR", "PYTHONDONTWRITEBYTECODE"):
         monkeypatch.setenv(name, "")  # so that what is set now is forgotten again
@@ -86,6 +89,10 @@ def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: 
     monkeypatch.setenv("CCACHE_CONFIGPATH", str(tmp_path / "ccache.conf"))
     monkeypatch.setenv("CCACHE_DIR", str(tmp_path / "cache"))
     use_caches()
+
+
+@pytest.mark.usefixtures("_cached")
+def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path) -> None:
     for name, hits in (("one", 0), ("far/the other", 1)):
         tree = release_tree(_tiny(tmp_path / name))
         tree.configure()
@@ -93,6 +100,39 @@ def test_copies_of_the_kit_share_what_was_compiled(tmp_path: Path, monkeypatch: 
         outcome = tree.build([])
         assert outcome.code == 0, outcome.stderr
         assert _hits() == hits
+
+
+_WITH_COMPILED_HEADERS = """cmake_minimum_required(VERSION 3.22)
+project(tiny LANGUAGES CXX)
+set(CMAKE_BUILD_TYPE Release)
+set(RAYSTEPS_MODEL reference)
+set(RAYSTEPS_PRECOMPILE ON)
+add_library(raysteps-flags INTERFACE)
+add_library(raysteps-strict INTERFACE)
+add_library(Catch2::Catch2 INTERFACE IMPORTED)
+include(precompiled.cmake)
+add_executable(tiny main.cpp)
+target_include_directories(tiny PRIVATE framework)
+raysteps_precompile(framework tiny)
+"""
+
+
+@pytest.mark.usefixtures("_cached")
+def test_compiled_headers_are_not_those_before_a_comment_was_changed(tmp_path: Path, project: Project) -> None:
+    """g++ knows a header that was compiled by its bytes, and would read it a second time."""
+    tiny = _tiny(tmp_path / "kit")
+    (tiny.root / "CMakeLists.txt").write_text(_WITH_COMPILED_HEADERS)
+    shutil.copy(project.root / "cmake" / "precompiled.cmake", tiny.root)
+    for answer, comment in enumerate(("one", "another")):
+        for header in ("core/scene.hpp", "testing/testing.hpp"):
+            path = tiny.root / "framework" / header
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(f"#pragma once\nstruct Scene {{}};  // {comment}\n")
+        main = f'#include "core/scene.hpp"\nint main() {{ return Scene{{}}, {answer}; }}\n'  # has to be compiled
+        (tiny.root / "main.cpp").write_text(main)
+        outcome = release_tree(tiny).build([])
+        assert outcome.code == 0, outcome.stdout + outcome.stderr
+        shutil.rmtree(tiny.build)
 
 
 @pytest.mark.parametrize(
