@@ -6,12 +6,14 @@ import time
 import pytest
 
 from raysteps.common.errors import GraderFault
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, kit_steps
+from raysteps.course.project import Project
 from raysteps.course.stubs import (
     borrowed_functions,
     called_functions,
     make_stub,
     same_code,
+    stub_for,
     unfinished_functions,
     uses,
     without_markers,
@@ -177,7 +179,15 @@ def test_which_functions_are_called() -> None:
         ("float far(float);\nfloat raysteps::far(float x);", False),
         ("[[nodiscard]] std::optional<HitRecord> far(const Ray& ray) {", False),
         ("namespace { std::vector<int>& far() {", False),
+        ("std::array<Box, 8> far(const Box& box) {", False),
+        ("struct A {\npublic:\n    float far() const;", False),
         ("void f() { far(1); }", True),
+        ("Ray f() { return {a, b, far(1)}; }", True),
+        ("void f() { switch (a) { case 1: far(1); } }", True),
+        ("void f() { switch (a) { default: far(1); } }", True),
+        ("void f() { ok && far(1); }", True),
+        ("bool f() { return not far(1); }", True),
+        ("using raysteps::far;", True),
         ("void f() { raysteps::far(1); }", True),
         ("void f() { return far(1); }", True),
         ("void f() { if (b) a(); else far(1); }", True),
@@ -194,4 +204,11 @@ def test_where_a_name_is_used_and_where_declared(source: str, used: bool) -> Non
 @pytest.mark.parametrize(("source", "borrowed"), [("int f() { return far(1); }", True), ("int far(int);\n", False)])
 def test_a_name_is_borrowed_where_the_source_has_none_of_its_own(source: str, borrowed: bool) -> None:
     assert (borrowed_functions(source, {"far"}) == {"far"}) is borrowed
+    assert not borrowed_functions(f"#if 0\n{source}\n#endif\n", {"far"})
     assert not borrowed_functions(f"int far(int x) {{ return x; }}\n{source}", {"far"})
+
+
+def test_a_stub_calls_none_of_its_functions(project: Project) -> None:
+    """Nothing that is wrong there waits for another function."""
+    for step in kit_steps(project):
+        assert called_functions(stub_for(project, step), step.functions) == set()

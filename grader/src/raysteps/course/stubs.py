@@ -3,7 +3,7 @@
 import re
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import pairwise, zip_longest
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
@@ -178,9 +178,12 @@ def unfinished_functions(source: str, step: Step) -> list[str]:
 
 
 # No types, though they stand where one may.
-_WORDS_OF_CODE = {"return", "else", "do", "case", "throw", "new", "delete", "co_return", "co_yield", "co_await"}
+_WORDS_OF_CODE = {"return", "else", "do", "case", "default", "goto", "throw", "new", "delete", "sizeof", "using"} | {
+    "co_return", "co_yield", "co_await", "and", "or", "not",
+}  # fmt: skip
 _STATEMENT_ENDS = frozenset(";{}\n")
 _OF_TYPES = frozenset(":<>,&*[]")
+_GO_ON = (",", "<", ":", "[")  # whatever stands before, a type does not end with one of these
 _MOST_BEFORE = 100  # tokens of a declaration before its name
 
 
@@ -192,8 +195,10 @@ def _is_declared(code: Sequence[str], at: int) -> bool:
     before = list(code[first:at])
     while before[-2:] == [":", ":"]:  # names that it is qualified by
         del before[-3:]
+    if not before or before[-1] in _GO_ON or before[-2:] == ["&", "&"] or before[0].isdigit():
+        return False
     words = [word for word in before if word not in _OF_TYPES]
-    return bool(words) and all(word.isidentifier() and word not in _WORDS_OF_CODE for word in words)
+    return all((word.isidentifier() and word not in _WORDS_OF_CODE) or word.isdigit() for word in words)
 
 
 def _places(source: str, names: Collection[str]) -> Iterator[tuple[str, int, bool]]:
@@ -214,7 +219,10 @@ def called_functions(source: str, names: Collection[str]) -> set[str]:
 
 
 def borrowed_functions(source: str, names: Collection[str]) -> set[str]:
-    """Those that the source calls by name and has not of its own."""
+    """Those that the source calls by name and has not of its own; none where it depends on conditions what it calls."""
+    code = tokens(source)
+    if any(mark == "#" and word.startswith("if") for mark, word in pairwise(code)):
+        return set()
     own = {name for name, _, is_declared in _places(source, names) if is_declared}
     return called_functions(source, names) - own
 
