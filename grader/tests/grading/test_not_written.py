@@ -81,7 +81,7 @@ def test_it_costs_its_own_points_only(kit: BuiltKit, number: str, function: str,
     result = _graded(kit, step, _without(kit, step, function), tmp_path)
     _assert_costs_itself_only(kit, step, function, result)
     assert f"Not written yet: {function}." in result.messages
-    assert "Your other functions are tried with the reference's in place of what is not written." in result.messages
+    assert "Your functions after it are tried with the reference's in its place." in result.messages
 
 
 @pytest.mark.slow

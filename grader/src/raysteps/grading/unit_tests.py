@@ -362,7 +362,7 @@ def set_aside(
     if waiting:
         result.messages.append(not_written_yet(waiting))
     if waiting and replaced:
-        result.messages.append("Your other functions are tried with the reference's in place of what is not written.")
+        result.messages.append("Your functions after it are tried with the reference's in its place.")
     if written:
         line = "that line" if len(written) == 1 else "these lines"
         result.messages.append(f"RAYSTEPS_TODO is still in: {join_and(written)}. The tests pass: delete {line}.")
