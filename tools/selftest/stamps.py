@@ -144,6 +144,7 @@ _TEXTS = re.compile(r"[\w./*-]*\.md|/?docs(/[\w./*-]*)?|(.*/)?README(\.md)?|/[\w
 EVERY_TEXT, _TEXTS_OF_PACKAGE, _ENDING, _FOLDER = "*", "grader/*", ".md", "docs"
 _PICTURES = "/docs/*.[!m]*"  # which one a document shows is told by the document
 _DOTTED = re.compile(r"(raysteps|tools)(\.\w+)+")
+_IMPORTED = re.compile(r"from ((?:raysteps|tools)[\w.]*) import ([\w, ]+)")  # in a program that is a text
 _COMMANDS = "raysteps.cli.app"  # it has the table of all commands, with their modules
 _STARTED = ("-m", "raysteps")
 _READS_ALL = places.__module__
@@ -272,6 +273,7 @@ class Sources:
         named, whole = self._imported(tree, name)
         for word in words:
             named |= {found[0] for found in _DOTTED.finditer(word)}
+            named |= {f"{found[1]}.{one}" for found in _IMPORTED.finditer(word) for one in found[2].split(", ")}
             if re.fullmatch(r"\w+\.py", word):
                 named.add(f"{self._package(name)}.{word.removesuffix('.py')}".lstrip("."))  # beside it, as keeper.py
             if word.startswith("raysteps.") and word.endswith("."):  # the rest of the name is made when it runs
@@ -402,8 +404,8 @@ def _listed(tree: _Nodes) -> Iterator[str]:
 def _commands(tree: _Nodes) -> Iterator[tuple[str, str]]:
     for node in tree:
         if isinstance(node, ast.Call) and ast.unparse(node.func) == "Command":
-            name, *_, module = [value for value in _values(node)[:3] if " " not in value]
-            yield name, module
+            values = _values(node)
+            yield values[0], next(value for value in values if _DOTTED.fullmatch(value))
 
 
 def _typed(tree: _Nodes) -> Iterator[str]:
