@@ -5,11 +5,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from raysteps.course.manifest import ImageCase
+from raysteps.course.manifest import ImageCase, Step
+from raysteps.diagnosis.diagnose import transformations
 from raysteps.diagnosis.evidence import Picture
 from raysteps.diagnosis.pixel_regions import Object, ObjectMap, numbered, place_of, size_of, without_highlights
 from raysteps.diagnosis.transforms import BEFORE, in_words, transformation_of
 from raysteps.images.compare import Pixels
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 
 def _reference() -> Pixels:
@@ -53,6 +55,22 @@ def test_what_happened_to_the_whole_picture_is_told(name: str, change: Callable[
     diagnosis = in_words(found.id, found.detail, ["balls-lit"])
     assert all((diagnosis.title, diagnosis.sees, diagnosis.cause, diagnosis.hint))
     assert "{" not in diagnosis.title
+
+
+@pytest.mark.parametrize(
+    ("other", "told"), [(np.roll(_reference(), 1, axis=1), True), (_reference()[::2, ::-1], False)]
+)
+def test_a_shift_is_told_where_it_explains_all_that_is_wrong(
+    kit: BuiltKit, steps: list[Step], other: Pixels, told: bool
+) -> None:
+    """Rays that miss their pixels do so in every scene."""
+    step = next(step for step in steps if step.index not in BEFORE)
+    pictures = {
+        "one": _picture(np.roll(_reference(), 1, axis=1)),
+        "other": _picture(other, _reference()[: len(other)]),
+    }
+    titles = [one.title for one in transformations(kit, step, pictures, pictures)]
+    assert (in_words("shifted-by-one", "", []).title in titles) is told
 
 
 def _slope(off: float) -> Pixels:
