@@ -93,6 +93,10 @@ class Parser(argparse.ArgumentParser):
             self.error(f"'{left[0]}': expected nothing more")
         return known, left
 
+    def _get_option_tuples(self, option_string: str) -> Any:
+        """What a beginning of an option may mean: two names of one option are no two options."""
+        return list({id(found[0]): found for found in super()._get_option_tuples(option_string)}.values())
+
     def _refuse_unknown(self, words: Iterable[str]) -> None:
         names = self._option_string_actions
         for option in (word.partition("=")[0] for word in words):
@@ -115,7 +119,8 @@ class Parser(argparse.ArgumentParser):
             shown = [self._shown(name) for name in re.split(", | ", missing["all"] or missing["any"])]
             message = f"expected {join_and(shown) if missing['all'] else _any_of(shown)}{self._such_as()}"
         elif no_value is not None:
-            message = f"expected {self._shown(no_value['name'])}{self._such_as()}"
+            shows_it = not set(no_value["name"].split("/")).isdisjoint(self.example.split())
+            message = f"expected {self._shown(no_value['name'])}{self._such_as() if shows_it else ''}"
         super().error(message)
 
     def _such_as(self) -> str:

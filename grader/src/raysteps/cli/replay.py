@@ -151,7 +151,7 @@ def _print(console: Console, file: CaseFile, judged: JudgedCase) -> int:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which case, and whose steps."""
-    parser.add_argument("case", type=Path, help="such as cases/02-sphere-intersect.json")
+    parser.add_argument("case", metavar="CASE", type=Path, help="a file that a report names, in cases/")
     parser.add_argument("--submission", type=Path, metavar="PATH", help="whose steps: a folder, zip or tar (your own)")
 
 
