@@ -11,8 +11,8 @@ option(RAYSTEPS_PRECOMPILE "Compile the common headers once, for a quicker build
 # GCC knows a header with `#pragma once` again by its bytes: headers compiled before a comment was changed would be read
 # a second time. Clang's hold the times of the headers that they were made from, and would be refused in another clone.
 if(RAYSTEPS_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_LAUNCHER STREQUAL "ccache")
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_COMMENTS=1
-        ccache)
+    set(settings CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_COMMENTS=1)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env ${settings} ccache)
 endif()
 
 # An object library that carries compiled headers: raysteps_carry_headers(NAME HEADER... [LIBRARIES LIBRARY...])

@@ -11,7 +11,7 @@
 
 #include "testing/testing.hpp"
 
-// Compiled once more as fibers change on processors for which fiber.cpp has no instructions.
+// Compiled once more as fibers change on processors for which quick_place.hpp has no instructions.
 #ifdef RAYSTEPS_PORTABLE_FIBERS
 #define WAY " (as on other processors)"
 #else

@@ -135,7 +135,7 @@ def signature(path: Path) -> str:
 
 
 def _facts(path: Path) -> tuple[int, ...]:
-    """None where it cannot be looked at, such as in a folder that is closed."""
+    """Nothing where it cannot be looked at, such as in a folder that is closed."""
     try:
         found = path.lstat()
     except OSError:
