@@ -111,6 +111,25 @@ std::size_t listed_around(const Node& node, const glm::vec3& point) {
     return listed;
 }
 
+Scene spheres_in_one_place() {
+    Scene scene;
+    for (int i = 0; i < 100; ++i) {
+        scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
+    }
+    return scene;
+}
+
+/// All in the plane z = 0.
+Scene row_of_triangles() {
+    Scene scene;
+    for (int i = 0; i < 30; ++i) {
+        const auto x = static_cast<float>(i);
+        scene.add(std::make_unique<Triangle>(glm::vec3{x, 0.0F, 0.0F}, glm::vec3{x + 1.0F, 0.0F, 0.0F},
+                                             glm::vec3{x, 1.0F, 0.0F}, Fill{}));
+    }
+    return scene;
+}
+
 }  // namespace
 
 TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree]") {
@@ -147,6 +166,18 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree", "[06-octre
             return Ray{target - 12.0F * direction, direction};
         };
         check_same_hits(root, scene.surfaces(), rays(600, along_an_axis));
+    }
+    SECTION("100 spheres in the same place") {
+        const Scene spheres = spheres_in_one_place();
+        check_same_hits(columns_around(spheres.surfaces()), spheres.surfaces(), {{{1.2F, 0.9F, 9.0F}, k_down}});
+    }
+    SECTION("triangles that all lie in one plane: flat boxes") {
+        const Scene triangles = row_of_triangles();
+        check_same_hits(columns_around(triangles.surfaces()), triangles.surfaces(),
+                        rays(30, [](int i) { return Ray{{static_cast<float>(i) + 0.3F, 0.3F, 5.0F}, k_down}; }));
+    }
+    SECTION("no surfaces: no hit") {
+        CHECK_FALSE(closest_hit_in_octree(Node{}, {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
     }
 }
 
@@ -286,33 +317,17 @@ TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it", "[06-
     CHECK_FALSE(occluded_in_octree(Node{}, {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
 }
 
-TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree][closest_hit_in_octree]") {
+TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octree]") {
+    Random random;
+    INFO(random);
     SECTION("100 spheres in the same place: dividing must come to an end") {
-        Scene scene;
-        for (int i = 0; i < 100; ++i) {
-            scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
-        }
-        const Node root = build_octree(scene.surfaces());
-        check_same_hits(root, scene.surfaces(), {{{1.2F, 0.9F, 9.0F}, k_down}});
+        check_leaves(spheres_in_one_place(), random, 9.0F);
     }
     SECTION("a single surface") {
         Scene scene;
         scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
-        const Node root = build_octree(scene.surfaces());
-        check_same_hits(root, scene.surfaces(), {{{0.0F, 0.0F, 9.0F}, k_down}, {{0.0F, 0.0F, 0.0F}, k_down}});
+        check_leaves(scene, random, 9.0F);
     }
-    SECTION("triangles that all lie in one plane: a flat box") {
-        Scene scene;
-        for (int i = 0; i < 30; ++i) {
-            const auto x = static_cast<float>(i);
-            scene.add(std::make_unique<Triangle>(glm::vec3{x, 0.0F, 0.0F}, glm::vec3{x + 1.0F, 0.0F, 0.0F},
-                                                 glm::vec3{x, 1.0F, 0.0F}, Fill{}));
-        }
-        const Node root = build_octree(scene.surfaces());
-        check_same_hits(root, scene.surfaces(),
-                        rays(30, [](int i) { return Ray{{static_cast<float>(i) + 0.3F, 0.3F, 5.0F}, k_down}; }));
-    }
-    SECTION("no surfaces: no hit") {
-        CHECK_FALSE(closest_hit_in_octree(build_octree({}), {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
-    }
+    SECTION("triangles that all lie in one plane: a flat box") { check_leaves(row_of_triangles(), random, 9.0F); }
+    SECTION("no surfaces: no list has any") { CHECK(listed_around(build_octree({}), {0.0F, 0.0F, 0.0F}) == 0); }
 }
