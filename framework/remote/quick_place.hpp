@@ -18,8 +18,10 @@ struct QuickPlace {
 
 /// Goes to `to`, and returns when somebody changes to `from`.
 inline void change(QuickPlace& from, QuickPlace& to) {
+    // NOLINTBEGIN(misc-const-correctness): the instructions write there
     QuickPlace* left = &from;
     QuickPlace* entered = &to;
+    // NOLINTEND(misc-const-correctness)
     asm volatile(
         "leaq 1f(%%rip), %%rax\n\t"
         "movq %%rsp, (%%rdi)\n\t"
@@ -40,7 +42,7 @@ inline void change(QuickPlace& from, QuickPlace& to) {
 inline void begin_at(QuickPlace& place, const Stack& stack, void (*body)()) {
     auto* top = reinterpret_cast<void**>(static_cast<char*>(stack.lowest()) + stack.size());
     top[-1] = nullptr;  // where a caller's address would be: the stack ends here
-    place = {.stack = top - 1, .frame = nullptr, .next = reinterpret_cast<void*>(body)};
+    place = {.stack = static_cast<void*>(top - 1), .frame = nullptr, .next = reinterpret_cast<void*>(body)};
 }
 
 }  // namespace raysteps::remote
