@@ -288,7 +288,7 @@ def test_a_new_scene_never_takes_the_place_of_a_file(
         (["--samples", "10"], "10: expected a square number from 1 to 64, like 16"),
         (["--threads", "0"], "expected a whole number from 1 to 1024"),
         (["--name", "x" * 61], "expected one line of at most 60 letters"),
-        (["--impl", "yours"], "invalid choice"),
+        (["--impl", "yours"], "none of its values"),
         (["--sampels", "4"], "--sampels: there is no such option; did you mean --samples?"),
         (["--step", "4"], "--step: there is no such option\n"),
     ],

@@ -487,7 +487,8 @@ def test_rough_metal_answers_for_an_eye_that_is_dragged(
     says(fresnel, "It waits for fresnel_dielectric and fresnel_schlick: not written yet")
     says(words, "It waits for ggx_distribution.*: not written yet")
     save(page, solved["14-materials"])
-    assert _states(project, steps[13], "Glass mirrors 4 % straight on and all along its surface.")
+    rims = "Glass mirrors 4 % of the light that comes straight on, and all of what comes along its surface."
+    assert _states(project, steps[13], rims)
     says(fresnel, r"At 0° glass mirrors 0\.04 of .* outside, and 0\.04 of .* inside\. Metal mirrors 0\.6\.")
     angle = _figure(page, "fresnel").get_by_role("slider", name="Angle", exact=True)
     for _ in range(9):
