@@ -22,7 +22,7 @@ from raysteps.sandbox.bubblewrap import Bubblewrap
 from raysteps.sandbox.detect import VARIABLE, find_sandbox
 from raysteps.sandbox.namespaces import hidden_folders, visible_folders
 from raysteps.sandbox.task import Input, Output, Sandbox, Task
-from raysteps.sandbox.users import can_lend_users, lent_user
+from raysteps.sandbox.users import can_lend_users, has_rights_of_root, lent_user
 
 __all__ = ["any_sandbox", "hostile", "misbehave"]  # pytest finds fixtures by name
 _NOBODY = 65534
@@ -204,6 +204,37 @@ def _python_for_others() -> list[str]:
         if said.strip() == version:
             return [name]
     return []
+
+
+@pytest.mark.parametrize(
+    ("rights", "enough"),
+    [("000001ffffffffff", True), ("00000000a80425fb", True), ("00000000a80425f8", False), ("00000000a80425fe", False)],
+)
+def test_root_has_not_its_rights_everywhere(rights: str, enough: bool) -> None:
+    assert has_rights_of_root(f"Name:\tpython\nCapPrm:\t0\nCapEff:\t{rights}\n") is enough
+
+
+_COMPILES = """
+import sys
+from pathlib import Path
+from raysteps.sandbox.detect import find_sandbox
+from raysteps.sandbox.task import Input, Output, Task
+ran = find_sandbox().run(Task(("c++", "-c", Input(Path(sys.argv[1])), "-o", Output("object")), tools=True))
+print(ran.outcome.code, bool(ran.outputs.get("object")))
+"""
+
+
+@pytest.mark.parametrize("without", ["-dac_override,-dac_read_search", "-chown"])
+def test_root_without_rights_over_others_gets_what_a_tool_makes(without: str, tmp_path: Path) -> None:
+    if not can_lend_users():
+        pytest.skip("only root has these rights to lose")
+    sandbox_named("bubblewrap")
+    source = tmp_path / "empty.cpp"
+    source.touch()
+    command = ["setpriv", "--bounding-set", without, sys.executable, "-P", "-c", _COMPILES, str(source)]
+    environment = {**os.environ, "PYTHONPATH": str(here().root / "grader" / "src")}
+    said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True, cwd="/").stdout
+    assert said.split() == ["0", "True"]
 
 
 def test_the_same_as_an_ordinary_user() -> None:

@@ -23,12 +23,23 @@ def _is_mapped(uid: int, table: str) -> bool:
     return False
 
 
+_CHOWN, _READ_ALL = 0b001, 0b110  # the rights CAP_CHOWN, and CAP_DAC_OVERRIDE or CAP_DAC_READ_SEARCH
+
+
+def has_rights_of_root(status: str) -> bool:
+    """Whether a process may give a folder to another user and read what that user makes there: root may not in each
+    container. `status`: as /proc/self/status tells."""
+    words = next((line.split() for line in status.splitlines() if line.startswith("CapEff:")), ["", "0"])
+    rights = int(words[1], 16)
+    return bool(rights & _CHOWN and rights & _READ_ALL)
+
+
 def can_lend_users() -> bool:
-    """Whether this process may become those users at all."""
+    """Whether this process may become those users at all, and have them work for it."""
     if os.geteuid() != 0:
         return False
     try:
-        return all(
+        return has_rights_of_root(Path("/proc/self/status").read_text(encoding="utf-8")) and all(
             _is_mapped(_FIRST, table) and _is_mapped(_FIRST + _COUNT - 1, table)
             for table in ("/proc/self/uid_map", "/proc/self/gid_map")
         )

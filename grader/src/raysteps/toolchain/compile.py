@@ -281,11 +281,29 @@ class StudentBuild:
         ran = self._run(limits, *words)
         data = ran.outputs.get("object")
         if ran.outcome.code != 0 or ran.outcome.timed_out or not data:
+            if not ran.was_stopped and not build_log(ran):
+                self._require_compiler(limits)
             return Compiled(None, ran)
         raw = self._write(f"{step.number}.o", data)
         return (
             _by_its_source(step, source, raw, ran) if description.seal is None else self._close(step, raw, ran, limits)
         )
+
+    def _require_compiler(self, limits: StepLimits) -> None:
+        """One that says nothing may not run here at all, which is nobody's mistake who handed something in: it has to
+        compile an empty file."""
+        description, empty = self._kit.description, self._folder / "empty.cpp"
+        write_bytes(empty, b"")
+        words: list[Word] = [description.compiler, *description.compile_flags]
+        words += compile_words(description, Input(empty, empty.name), Output("object"))
+        ran = self._run(limits, *words)
+        if not ran.outputs.get("object"):
+            how = ran.outcome.signal_name or f"exit code {ran.outcome.code}"
+            raise GraderFault(
+                f"The compiler does not work where submissions are compiled (in: {self._sandbox.isolation.name}): even "
+                f"of an empty file {description.compiler} makes nothing: {how}, and it says "
+                f"{build_log(ran) or 'nothing'}. Has this container, or this user, fewer rights than usual?"
+            )
 
     def _close(self, step: Step, raw: Path, compiled: TaskResult, limits: StepLimits) -> Compiled:
         """Turns an object into a library, unless it asks for what is not its own or lacks what it should have."""

@@ -1,0 +1,37 @@
+"""A compiler that does not work is nobody's mistake who handed something in."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from raysteps.common.errors import GraderFault
+from raysteps.common.platform import is_windows
+from raysteps.grading.build_messages import why_not_built
+from raysteps.sandbox.limits_only import LimitsOnly
+from raysteps.toolchain.compile import Compiled, StudentBuild
+from raysteps.toolchain.kit_artifacts import BuiltKit
+
+pytestmark = pytest.mark.skipif(is_windows(), reason="stands in for the compiler by a shell script")
+_SOURCE = "int answer() { return 42; }\n"
+
+
+def _compiled(kit: BuiltKit, folder: Path, script: str) -> Compiled:
+    """By a compiler that does first what the script says."""
+    compiler = folder / "compiler"
+    compiler.write_text(f'#!/bin/sh\n{script}\nexec {kit.description.compiler} "$@"\n')
+    compiler.chmod(0o755)
+    other = replace(kit, description=replace(kit.description, compiler=str(compiler)))
+    step = kit.steps[0]
+    return StudentBuild(other, LimitsOnly(), folder / "build").compile(step, _SOURCE.encode(), kit.limits_of(step))
+
+
+def test_one_that_never_works_is_a_fault_of_the_grader(kit: BuiltKit, tmp_path: Path) -> None:
+    with pytest.raises(GraderFault, match=r"does not work where .* exit code 3, and it says nothing"):
+        _compiled(kit, tmp_path, "exit 3")
+
+
+def test_one_that_gives_up_on_a_file_does_not_build_it(kit: BuiltKit, tmp_path: Path) -> None:
+    compiled = _compiled(kit, tmp_path, f'case "$*" in *{kit.steps[0].file}*) exit 3 ;; esac')
+    assert compiled.binary is None
+    assert why_not_built(kit, kit.steps[0], compiled, _SOURCE).endswith("the compiler gave up and said nothing.")
