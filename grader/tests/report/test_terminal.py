@@ -11,6 +11,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import here
 from raysteps.images.compare import write_png
 from raysteps.report.terminal import print_details, print_diagnoses, print_table
+from raysteps.report.wording import warnings_of
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult
 
 _LONG = "a sentence that is far too long for a narrow terminal [and in brackets] and goes on and on"
@@ -122,6 +123,21 @@ def test_warnings_of_every_compiler_are_found(steps: list[Step], tmp_path: Path,
     console = Console(file=(text := io.StringIO()), width=200, color_system=None)
     print_details(console, Results.of("ann", [result]), steps, tmp_path, str, own=True)
     assert said in text.getvalue()
+
+
+def test_the_warning_that_matters_most_comes_first(steps: list[Step]) -> None:
+    """Numbers that are converted are many in a right solution, too."""
+    converted = [f"own.cpp:{line}:1: warning: conversion from 'int' to 'float' may change value" for line in range(5)]
+    more = ["own.cpp:8:1: warning: unused variable 'k'", "own.cpp:9:1: warning: 'k' is used uninitialized"]
+    result = StepResult(steps[1].id, "failed", 0.0, steps[1].points, steps[1].bonus)
+    result.build_log = "\n".join([*converted, *more])
+    (first, *_), (second, *_), (third, advice) = warnings_of(result)
+    assert first.endswith("'k' is used uninitialized")
+    assert second.endswith("unused variable 'k'")
+    assert third.startswith("own.cpp:0:1: conversion from 'int' to 'float'")
+    assert "float(a) / float(b)" in advice
+    result.build_log = "\n".join(converted)
+    assert [len(lines) for lines in warnings_of(result)] == [2, 1, 1], "what to do is said once"
 
 
 def test_warnings_of_the_compiler_stand_above_what_went_wrong(steps: list[Step], tmp_path: Path) -> None:

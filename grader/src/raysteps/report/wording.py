@@ -198,11 +198,19 @@ _WHOLE_NUMBERS = re.compile(r"conversion [^\n]{0,40}'(?:const )?int' to '(?:cons
 _DIVIDED = "Of whole numbers 1 / 2 is 0: where they are divided, write float(a) / float(b)."
 
 
+def _importance(warning: str) -> int:
+    """A variable without a value is a mistake; a conversion mostly is none."""
+    if "uninitialized" in warning:
+        return 0
+    return 2 if _WHOLE_NUMBERS.search(warning) else 1
+
+
 def warnings_of(result: StepResult) -> list[list[str]]:
-    """Of a step that is wrong, for whoever wrote it: the first few, each with what to do in a line of its own where
-    that is known."""
+    """Of a step that is wrong, for whoever wrote it: the few that matter most, and under the first of its kind what to
+    do where that is known."""
     if result.status in ("passed", "does-not-build"):
         return []
-    found = list(dict.fromkeys(one["text"] for one in _WARNING.finditer(result.build_log)))[:_MAX_WARNINGS]
-    advice = ([_DIVIDED] if _WHOLE_NUMBERS.search(text) else [] for text in found)
-    return [[text.replace(": warning: ", ": ", 1), *more] for text, more in zip(found, advice, strict=True)]
+    all_of_them = dict.fromkeys(one["text"] for one in _WARNING.finditer(result.build_log))
+    found = sorted(all_of_them, key=_importance)[:_MAX_WARNINGS]
+    advised = next((text for text in found if _WHOLE_NUMBERS.search(text)), None)
+    return [[text.replace(": warning: ", ": ", 1), *([_DIVIDED] if text == advised else [])] for text in found]
