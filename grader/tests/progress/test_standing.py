@@ -142,6 +142,19 @@ def test_a_file_that_is_gone_or_no_text(course: Project, steps: list[Step], data
         assert "./raysteps reset 01" in text(console)
 
 
+def test_what_is_only_closed_is_not_to_be_reset(course: Project, steps: list[Step]) -> None:
+    """A folder in the place of the file: as with a file that is not to be read, the work may be there."""
+    path = course.steps / steps[0].path
+    path.unlink()
+    path.mkdir()
+    assert _words(course)[0].startswith("the file cannot be read: ")
+    for command in (next_step, list_steps):
+        console = printed()
+        command(course, console)
+        assert "./raysteps check 01" in text(console)
+        assert "reset" not in text(console)
+
+
 @pytest.mark.parametrize("damage", ["", "[]", '{"schema": "other", "steps": {}}', '{"schema": "raysteps/progress/v1"}'])
 def test_a_damaged_memory_is_none(course: Project, steps: list[Step], damage: str) -> None:
     _check(course, steps[0], "passed", 10)

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from raysteps.common.errors import reason
 from raysteps.common.files import write_json
 from raysteps.common.platform import own_command
 from raysteps.common.text import join_and, tenths
@@ -91,6 +92,7 @@ class Standing:
     kind: Kind
     last: LastCheck | None = None
     unfinished: tuple[str, ...] = ()
+    closed: str = ""  # why the file, which may hold work, cannot be opened
 
     @property
     def is_done(self) -> bool:
@@ -108,7 +110,7 @@ class Standing:
             case "missing":
                 return "the file is not there"
             case "unreadable":
-                return "the file cannot be read as text"
+                return f"the file cannot be read: {self.closed}" if self.closed else "the file cannot be read as text"
             case "not-started":
                 return in_words("not-started")
             case "unchecked":
@@ -133,7 +135,9 @@ def standing_of(project: Project, step: Step, last: LastCheck | None) -> Standin
     """Compares the file with the stub and with what was checked last."""
     try:
         source = own_source(project, step)
-    except (OSError, RejectedFile):
+    except OSError as error:
+        return Standing(step, "unreadable", closed=reason(error))
+    except RejectedFile:
         return Standing(step, "unreadable")
     if source is None:
         return Standing(step, "missing")
@@ -241,7 +245,9 @@ def list_steps(project: Project, console: Console) -> int:
 
 
 def _to_type(standing: Standing) -> str:
-    return f"{own_command()} {'reset' if standing.is_broken else 'watch'} {standing.step.number}"
+    """A stub is put in the place of what is broken, but not of work that is only closed: check says what to do."""
+    command = "check" if standing.closed else "reset" if standing.is_broken else "watch"
+    return f"{own_command()} {command} {standing.step.number}"
 
 
 def _to_write(standing: Standing) -> str:
