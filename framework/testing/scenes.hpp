@@ -1,5 +1,5 @@
 #pragma once
-// Random scenes for tests.
+// Scenes for tests: random ones, and such as no tree can divide.
 #include <memory>
 
 #include "core/scene.hpp"
@@ -25,6 +25,25 @@ inline Scene mixed_scene(Random& random, int spheres, int triangles) {
         const glm::vec3 b = random.point(5.0F);
         const glm::vec3 c = random.point(5.0F);
         scene.add(std::make_unique<Triangle>(a, b, c, Fill{}));
+    }
+    return scene;
+}
+
+inline Scene spheres_in_one_place(int count) {
+    Scene scene;
+    for (int i = 0; i < count; ++i) {
+        scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
+    }
+    return scene;
+}
+
+/// All in the plane z = 0.
+inline Scene row_of_triangles() {
+    Scene scene;
+    for (int i = 0; i < 30; ++i) {
+        const auto x = static_cast<float>(i);
+        scene.add(std::make_unique<Triangle>(glm::vec3{x, 0.0F, 0.0F}, glm::vec3{x + 1.0F, 0.0F, 0.0F},
+                                             glm::vec3{x, 1.0F, 0.0F}, Fill{}));
     }
     return scene;
 }

@@ -111,25 +111,6 @@ std::size_t listed_around(const Node& node, const glm::vec3& point) {
     return listed;
 }
 
-Scene spheres_in_one_place() {
-    Scene scene;
-    for (int i = 0; i < 100; ++i) {
-        scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
-    }
-    return scene;
-}
-
-/// All in the plane z = 0.
-Scene row_of_triangles() {
-    Scene scene;
-    for (int i = 0; i < 30; ++i) {
-        const auto x = static_cast<float>(i);
-        scene.add(std::make_unique<Triangle>(glm::vec3{x, 0.0F, 0.0F}, glm::vec3{x + 1.0F, 0.0F, 0.0F},
-                                             glm::vec3{x, 1.0F, 0.0F}, Fill{}));
-    }
-    return scene;
-}
-
 }  // namespace
 
 TEST_CASE("build_octree: every surface is in the leaves that it runs through", "[06-octree][build_octree]") {
@@ -168,7 +149,7 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree", "[06-octre
         check_same_hits(root, scene.surfaces(), rays(600, along_an_axis));
     }
     SECTION("100 spheres in the same place") {
-        const Scene spheres = spheres_in_one_place();
+        const Scene spheres = spheres_in_one_place(100);
         check_same_hits(columns_around(spheres.surfaces()), spheres.surfaces(), {{{1.2F, 0.9F, 9.0F}, k_down}});
     }
     SECTION("triangles that all lie in one plane: flat boxes") {
@@ -321,7 +302,7 @@ TEST_CASE("build_octree: scenes that cannot be divided", "[06-octree][build_octr
     Random random;
     INFO(random);
     SECTION("100 spheres in the same place: dividing must come to an end") {
-        check_leaves(spheres_in_one_place(), random, 9.0F);
+        check_leaves(spheres_in_one_place(100), random, 9.0F);
     }
     SECTION("a single surface") {
         Scene scene;

@@ -88,24 +88,6 @@ void check_same_hit(const Bvh& bvh, const SurfaceList& surfaces, const Ray& ray)
     testing::check_same_hit(ray, closest_hit(surfaces, ray), closest_hit_in_bvh(bvh, ray));
 }
 
-Scene spheres_in_one_place() {
-    Scene scene;
-    for (int i = 0; i < 2000; ++i) {
-        scene.add(sphere_at({1.0F, 1.0F, 1.0F}, 1.0F));
-    }
-    return scene;
-}
-
-Scene row_of_triangles() {
-    Scene scene;
-    for (int i = 0; i < 30; ++i) {
-        const auto x = static_cast<float>(i);
-        scene.add(std::make_unique<Triangle>(glm::vec3{x, 0.0F, 0.0F}, glm::vec3{x + 1.0F, 0.0F, 0.0F},
-                                             glm::vec3{x, 1.0F, 0.0F}, Fill{}));
-    }
-    return scene;
-}
-
 }  // namespace
 
 TEST_CASE("build_bvh: every surface is in one leaf, and every box holds what is below it", "[09-bvh][build_bvh]") {
@@ -138,7 +120,7 @@ TEST_CASE("build_bvh: the boxes sort the surfaces out", "[09-bvh][build_bvh]") {
 }
 
 TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh]") {
-    SECTION("2000 spheres in the same place: dividing must come to an end") { check_tree(spheres_in_one_place()); }
+    SECTION("2000 spheres in the same place: dividing must come to an end") { check_tree(spheres_in_one_place(2000)); }
     SECTION("spheres within spheres: one middle for all") {
         Scene scene;
         for (int i = 1; i <= 60; ++i) {
@@ -164,7 +146,7 @@ TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh]") {
 
 TEST_CASE("closest_hit_in_bvh: in scenes that cannot be divided", "[09-bvh][closest_hit_in_bvh]") {
     SECTION("2000 spheres in the same place") {
-        const Scene scene = spheres_in_one_place();
+        const Scene scene = spheres_in_one_place(2000);
         check_same_hit(chain_of_leaves(scene.surfaces()), scene.surfaces(), {{1.2F, 0.9F, 9.0F}, k_down});
     }
     SECTION("triangles that all lie in one plane: a flat box") {
