@@ -220,11 +220,11 @@ def called_functions(source: str, names: Collection[str]) -> set[str]:
 
 def borrowed_functions(source: str, names: Collection[str]) -> set[str]:
     """Those that the source calls by name and has not of its own; none where it depends on conditions what it calls."""
-    code = tokens(source)
-    if any(mark == "#" and word.startswith("if") for mark, word in pairwise(code)):
+    found = list(_places(source, names))
+    borrowed = {name for name, _, _ in found} - {name for name, _, is_declared in found if is_declared}
+    if borrowed and any(mark == "#" and word.startswith("if") for mark, word in pairwise(tokens(source))):
         return set()
-    own = {name for name, _, is_declared in _places(source, names) if is_declared}
-    return called_functions(source, names) - own
+    return borrowed
 
 
 def same_code(one: str, other: str) -> bool:
