@@ -1,11 +1,14 @@
 """Every sandbox runs honest programs, and holds those that are not."""
 
+import os
 import signal
 import socket
 import subprocess
 import tempfile
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -20,8 +23,10 @@ from sandboxes import (
     sandbox,
     secret,
 )
+from watch_fakes import wait_for
 
 from raysteps.course.project import here
+from raysteps.sandbox.monitor import descendants
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
 
 __all__ = ["any_sandbox", "hostile", "misbehave", "sandbox", "secret"]  # pytest finds fixtures by name
@@ -191,6 +196,24 @@ def test_sleeping_is_ended(any_sandbox: Sandbox, misbehave: Misbehave) -> None:
     ran = misbehave(any_sandbox, "stubborn", wall_seconds=1)
     assert ran.stopped == "wall"
     assert ran.outcome.timed_out
+
+
+def test_an_interrupt_is_for_the_grader_alone(any_sandbox: Sandbox, hostile: Path) -> None:
+    """A terminal sends it to the whole group, and what a sandbox consists of must not die before what it holds."""
+    name, before = f"{PROGRAM}-held", descendants(os.getpid())
+    task = Task((Input(hostile, name), "stubborn"), Limits(wall_seconds=600, cpu_seconds=600))
+    with ThreadPoolExecutor(1) as pool:
+        ran = pool.submit(any_sandbox.run, task)
+        try:
+            wait_for(lambda: bool(processes_running(name)))
+            for pid in descendants(os.getpid()) - before:
+                with suppress(ProcessLookupError):
+                    if os.getpgid(pid) == os.getpgrp():
+                        os.kill(pid, signal.SIGINT)
+        finally:
+            task.abandoned.set()
+    assert ran.result().stopped == "wall"
+    assert processes_running(name) == []
 
 
 @pytest.mark.parametrize("processes", [1, 2])

@@ -1,6 +1,7 @@
 """Which sandbox is taken, what becomes of it when the grader is killed, and what an ordinary user gets."""
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -13,8 +14,9 @@ from pathlib import Path
 
 import pytest
 from sandboxes import Misbehave, any_sandbox, hostile, misbehave, processes_running, sandbox_named
+from watch_fakes import is_running, wait_for
 
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.project import here
 from raysteps.sandbox import detect as choice
 from raysteps.sandbox import task_dir as workplace
@@ -73,6 +75,24 @@ def test_a_bubblewrap_that_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path:
     assert find_sandbox().isolation.name != "bubblewrap"
     with pytest.raises(UsageError, match=r"(?i)permission"):
         find_sandbox(require=True)
+
+
+def test_a_bubblewrap_that_ends_early_holds_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its child waits for it for ever, and has what it says as an open file."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        program = Path(folder, "bwrap")
+        closing = "for file in /proc/$BASHPID/fd/*; do ((${file##*/} <= 2)) || eval exec ${file##*/}'>&-'; done"
+        left = f"({closing}; exec sleep 1000) & echo $! was left >&2"
+        program.write_text(f"#!/bin/bash\n[ $1 = --help ] || {{ {left}; }}\n")
+        program.chmod(0o755)
+        monkeypatch.setattr(
+            shutil, "which", lambda name, which=shutil.which: str(program) if name == "bwrap" else which(name)
+        )
+        with pytest.raises(GraderFault, match="was left") as raised:
+            Bubblewrap().run(Task(("/bin/true",)))
+    child = int(re.findall(r"(\d+) was left", str(raised.value))[0])
+    wait_for(lambda: not is_running(child))
 
 
 def test_folders_of_killed_graders_are_swept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -252,7 +252,7 @@ class Bubblewrap:
             cwd="/",
             start_new_session=True,  # Ctrl-C is for the grader
         )
-        stack.callback(process.kill)
+        stack.callback(_end, process)
         control.hand_over()
 
         def exit_code(status: int) -> int | None:
@@ -287,9 +287,10 @@ class Bubblewrap:
                     stderr=subprocess.PIPE,
                     pass_fds=(control.status_fd, control.gate_fd, options_fd, *inside.fds, *fences),
                     cwd="/",
+                    start_new_session=True,  # Ctrl-C is for the grader
                 )
             )
-            stack.callback(process.kill)
+            stack.callback(_end, process)
             control.hand_over()
             if wire is not None:
                 wire.hand_over()
@@ -319,9 +320,16 @@ def _options_of(program: str) -> frozenset[str]:
     return frozenset(word for word in (said.stdout + said.stderr).split() if word.startswith("--"))
 
 
+def _end(process: "subprocess.Popen[bytes]") -> None:
+    """With its group: a bubblewrap that ends early leaves a child that waits for it, and has its pipes, for ever."""
+    if process.returncode is None:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+
+
 def _cannot_start(process: "subprocess.Popen[bytes]") -> GraderFault:
     assert process.stderr is not None
-    process.kill()
+    _end(process)
     said = process.stderr.read().decode("utf-8", "replace")
     return GraderFault(f"bubblewrap cannot make a sandbox: {shorten(printable(said).strip())}")
 

@@ -84,7 +84,7 @@ def _start(settings: Settings, command: list[str]) -> None:
         _prctl(_PR_SET_NO_NEW_PRIVS, 1)
         if settings["fences"] is not None:
             _fence(settings["fences"])
-        for number in (signal.SIGPIPE, signal.SIGXFSZ, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGPIPE, signal.SIGXFSZ, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
         os.execve(command[0], command, settings["environment"])  # noqa: S606  (there is no shell to want)
     except BaseException as error:
@@ -138,6 +138,7 @@ def keep(settings: Settings, command: list[str]) -> None:
     """Runs the command until it ends, or whoever wants it does, and ends what it left behind."""
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)
     _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the grader, which ends this
     signal.signal(signal.SIGCHLD, lambda *_: None)  # some systems drop what is ignored before anybody waits for it
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM, signal.SIGCHLD})
     child = os.fork()
@@ -210,7 +211,7 @@ def _receive(asked: "_socket.socket", size: int) -> bytes:
 def fork_server(asked: "_socket.socket", grader: int) -> None:
     """Forks a keeper for each command that comes, until the other end is closed. A command comes with a file to answer
     by and with those that it is to have open."""
-    interrupt = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     while True:
         head, extra, _, _ = asked.recvmsg(_NUMBER_BYTES, _socket.CMSG_SPACE(4 * _MOST_FILES))
         head += _receive(asked, _NUMBER_BYTES - len(head)) if head else b""
@@ -223,7 +224,6 @@ def fork_server(asked: "_socket.socket", grader: int) -> None:
         if middle == 0:
             try:
                 asked.close()
-                signal.signal(signal.SIGINT, interrupt)
                 _become_a_keeper(grader, wanted, files)
             finally:
                 os._exit(0)
