@@ -1,8 +1,10 @@
-"""Steps 06 and 09: a tree of boxes, slabs, what an overlap test saves, and what a cut costs."""
+"""Steps 06 and 09: a tree of boxes, slabs, what an overlap test saves, what a cut costs, and the tests of a ray."""
 
 import math
 
+from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
 from tools.figures.drawing import Drawing, Point
+from tools.figures.measuring import Measurement
 
 
 def slabs() -> Drawing:
@@ -237,3 +239,52 @@ def quadtree() -> Drawing:
     ):
         figure.text((402, 90 + 30 * row - (12 if row == 2 else 0)), words, kind)
     return figure
+
+
+# What was counted.
+
+_MIDDLE = 420.0
+_NAMES = {"none": "every surface", "boxes": "64 boxes", "octree": "octree", "bvh": "bounding volumes"}
+
+
+def _points(rows: list[list[float]]) -> list[tuple[float, float]]:
+    return [(float(x), float(y)) for x, y in rows]
+
+
+def growth(measured: Measurement) -> str:
+    """Tests per ray against the size of the scene, on log axes."""
+    found = measured["growth"]
+    every = [_points(rows) for ways in found.values() for rows in ways.values()]
+    x = log_axis("surfaces in the scene", [at for line in every for at, _ in line])
+    y = log_axis("tests per ray, surfaces and boxes", [tests for line in every for _, tests in line])
+    charts = [
+        Chart(kind, x, y, [Series(_NAMES[name], _points(rows)) for name, rows in ways.items()])
+        for kind, ways in found.items()
+    ]
+    words = (
+        "Both axes are logarithmic. Without boxes, tests grow as the scene does. The paper's 64 boxes are a tenth "
+        "of that and grow as fast. Octree and bounding volumes hardly grow."
+    )
+    return svg_text(charts, width=_MIDDLE, description=words, plate=True)
+
+
+def depths(measured: Measurement) -> str:
+    """Left: tests per ray. Right: entries per surface with both kinds of overlap test."""
+    found = measured["depths"]
+    x = Axis("greatest depth of the tree", 0.0, 7.0)
+    surfaces, boxes = _points(found["surfaces"]), _points(found["boxes"])
+    precise, bounds = _points(found["precise"]), _points(found["bounds"])
+    tests = log_axis("tests per ray", [value for _, value in [*surfaces, *boxes]])
+    entries = linear_axis("list entries per surface", [value for _, value in [*precise, *bounds]])
+    left = [Series("surfaces tested", surfaces), Series("boxes tested", boxes), Series("entries, precise", [])]
+    right = [Series("surfaces tested", []), Series("boxes tested", []), Series("entries, precise", precise)]
+    charts = [
+        Chart("gears: tests", x, tests, [*left, Series("entries, by bounds", [])]),
+        Chart("gears: room in the lists", x, entries, [*right, Series("entries, by bounds", bounds)]),
+    ]
+    words = (
+        "Left: each level of boxes saves surface tests and costs box tests; after five levels nothing is gained. "
+        "Right: with a precise overlap test the lists stop growing, with bounds alone they grow from level to "
+        "level."
+    )
+    return svg_text(charts, width=_MIDDLE, description=words, plate=True)

@@ -18,7 +18,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgressCallback
-from tools.figures import boxes, meshes, plots, rays, renders, sampling, shading
+from tools.figures import boxes, meshes, rays, renders, sampling, shading
 from tools.figures.measuring import measured
 
 # All figures: their files, and what makes them.
@@ -58,18 +58,18 @@ _DIAGRAMS = {
     "15-two-ways": sampling.two_ways,
 }
 _CURVES = {
-    "03-highlight": plots.highlight,
-    "07-curve": plots.tone,
+    "03-highlight": shading.highlight,
+    "07-curve": shading.tone,
     "10-errors": sampling.errors,
     "10-filters": sampling.filters,
     "10-screen": sampling.screen,
     "15-weights": sampling.weights,
 }
 _PLOTS = {
-    "04-threshold": plots.acne,
-    "05-rays": plots.bounces,
-    "06-growth": plots.growth,
-    "06-depth": plots.depths,
+    "04-threshold": shading.thresholds,
+    "05-rays": shading.bounces,
+    "06-growth": boxes.growth,
+    "06-depth": boxes.depths,
 }
 
 

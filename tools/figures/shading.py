@@ -1,9 +1,13 @@
-"""Steps 03 to 05, and 08: the directions of Phong's formula, the shadow ray and why it needs a threshold, mirrors in
-mirrors, and glass."""
+"""Steps 03 to 05, 07 and 08: Phong's formula, the shadow ray and why it needs a threshold, mirrors in mirrors, how
+light becomes brightness, and glass."""
 
 import math
 
+from tools.bench.charts import Axis, Chart, Series, linear_axis, log_axis, svg_text
 from tools.figures.drawing import Drawing, Point, polar
+from tools.figures.measuring import Measurement
+
+_WIDE = 560.0
 
 
 def phong() -> Drawing:
@@ -65,6 +69,17 @@ def cosine() -> Drawing:
         figure.line((left + 20, ground + 5), (left + 20 + width, ground + 5), "red thick")
         figure.text((left + 90, 192), words, "", "middle")
     return figure
+
+
+def highlight() -> str:
+    """The cosine to the power of shine."""
+    series = []
+    for shine in (1, 10, 50, 200):
+        points = [(float(degrees), math.cos(math.radians(degrees)) ** shine) for degrees in range(91)]
+        series.append(Series(f"shine {shine}", points, marked=False))
+    x, y = Axis("angle between r and v, in degrees", 0.0, 90.0), Axis("share of ks", 0.0, 1.0)
+    words = "All curves begin at 1 and fall to 0; with shine 1 slowly, at 90 degrees, with shine 200 within 15 degrees."
+    return svg_text([Chart("the width of a highlight", x, y, series)], width=_WIDE, description=words, plate=True)
 
 
 def shadow() -> Drawing:
@@ -152,6 +167,19 @@ def acne() -> Drawing:
     return figure
 
 
+def thresholds(measured: Measurement) -> str:
+    """Wrong pixels against the threshold."""
+    found = measured["thresholds"]
+    x = log_axis("threshold, in units of the scene", [at for rows in found.values() for at, _ in rows])
+    y = linear_axis("wrong pixels, %", [100 * share for rows in found.values() for _, share in rows])
+    series = [Series(name, [(at, 100 * share) for at, share in rows]) for name, rows in found.items()]
+    words = (
+        "A third of the pixels is wrong with too small a threshold: up to a millionth near the centre of the world, "
+        "up to three millionths at coordinates around 100. From a hundredth on shadows are lost."
+    )
+    return svg_text([Chart("acne, and lost shadows", x, y, series)], width=_WIDE, description=words, plate=True)
+
+
 def tree() -> Drawing:
     """The calls of trace, one below the other."""
     figure = Drawing(
@@ -220,6 +248,31 @@ def mirrored() -> Drawing:
     figure.arrow((322, 203), (end[0], 203), "green")
     figure.text((400, 230), "stays: 0.6", "small t-green", "middle")
     return figure
+
+
+def bounces(measured: Measurement) -> str:
+    """Rays per pixel against the ray depth."""
+    found = measured["bounces"]
+    y = linear_axis("rays per pixel", [value for rows in found.values() for _, value in rows])
+    series = [Series(name, [(float(depth), float(value)) for depth, value in rows]) for name, rows in found.items()]
+    chart = Chart("facing mirrors: what a deeper limit costs", Axis("greatest depth", 1.0, 10.0), y, series)
+    words = "Rays per pixel grow with each level, less and less: only chains that stay between the mirrors go on."
+    return svg_text([chart], width=_WIDE, description=words, plate=True)
+
+
+def tone() -> str:
+    """c / (c + 1) beside cutting off."""
+    light = [i / 20 for i in range(101)]
+    series = [
+        Series("cut off at 1", [(c, min(c, 1.0)) for c in light], marked=False),
+        Series("c / (c + 1)", [(c, c / (c + 1)) for c in light], marked=False),
+    ]
+    x, y = Axis("light c of one channel", 0.0, 5.0), Axis("what is shown, 1 is white", 0.0, 1.0)
+    words = (
+        "Cutting off is a straight line up to 1 and flat from there on, so 2 and 5 look the same. c / (c + 1) "
+        "begins as steep, bends, is 0.5 at 1 and 0.83 at 5, and never reaches 1."
+    )
+    return svg_text([Chart("from light to brightness", x, y, series)], width=_WIDE, description=words, plate=True)
 
 
 def snell() -> Drawing:
