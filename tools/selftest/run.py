@@ -21,6 +21,7 @@ from tools.grade_audit import check_truth, forget_answers
 from tools.lint import TIDY, lint_checks
 from tools.mistake_pages import out_of_date
 from tools.selftest.checks import UNCHANGED, Check, Report, run_checks
+from tools.selftest.inputs import EVERY_TEXT, Sources
 from tools.selftest.programs import (
     CACHE,
     LINES,
@@ -36,7 +37,7 @@ from tools.selftest.programs import (
     use_caches,
     windows_checks,
 )
-from tools.selftest.stamps import EVERY_TEXT, Belongs, Sources, Stamps
+from tools.selftest.stamps import Belongs, Stamps
 from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.

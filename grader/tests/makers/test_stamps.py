@@ -14,8 +14,9 @@ from raysteps.course.project import Project
 from tools.selftest import run as selftest_checks
 from tools.selftest import stamps
 from tools.selftest.checks import Check, Report, Verdict, run_checks
+from tools.selftest.inputs import Inputs, Sources, is_text
 from tools.selftest.run import run_pytest
-from tools.selftest.stamps import Inputs, Sources, Stamps
+from tools.selftest.stamps import Stamps
 
 _FILES = {
     "README.md": "# A kit\n",
@@ -130,7 +131,7 @@ def test_a_name_that_is_made_when_it_runs_may_be_any(small: Project) -> None:
 )
 def test_documents_count_for_who_names_them(small: Project, test: str, read: list[str]) -> None:
     """By a file, a folder or a pattern, itself or by a command; and pictures, which documents show."""
-    assert [place for place in sorted(_FILES) if stamps.is_text(place) and _counts(small, test, place)] == read
+    assert [place for place in sorted(_FILES) if is_text(place) and _counts(small, test, place)] == read
 
 
 def test_what_is_neither_document_nor_python_counts_for_everybody(small: Project) -> None:
