@@ -129,8 +129,8 @@ private:
     std::string element_ = "body";
 };
 
-constexpr std::size_t k_most_items = std::size_t{1} << 26U;  // elements of a kind, or values of a list
-constexpr std::size_t k_most_elements = 100;
+constexpr std::size_t k_max_items = std::size_t{1} << 26U;  // elements of a kind, or values of a list
+constexpr std::size_t k_max_elements = 100;
 
 bool is_known(std::string_view element) { return element == "vertex" || element == "face"; }
 
@@ -226,13 +226,13 @@ private:
 
     void read_element(const std::vector<std::string_view>& words, std::string_view line) {
         const std::optional<int> count = parse_whole(words[2]);
-        if (!count || *count < 0 || std::cmp_greater(*count, k_most_items)) {
+        if (!count || *count < 0 || std::cmp_greater(*count, k_max_items)) {
             fail("a number of elements up to 67108864", line);
         }
         if (std::any_of(elements_.begin(), elements_.end(), [&](const Element& one) { return one.name == words[1]; })) {
             fail("an element of another name than those before", line);
         }
-        if (elements_.size() == k_most_elements) {
+        if (elements_.size() == k_max_elements) {
             fail("100 kinds of elements at most", line);
         }
         elements_.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
@@ -265,7 +265,7 @@ private:
     }
 
     static void skip(const Property& property, Body& body) {
-        const std::size_t values = property.count ? body.whole(*property.count, "a number of values", k_most_items) : 1;
+        const std::size_t values = property.count ? body.whole(*property.count, "a number of values", k_max_items) : 1;
         for (std::size_t i = 0; i < values; ++i) {
             static_cast<void>(body.value(property.kind, "a value of " + raysteps::quoted(property.name)));
         }
@@ -308,7 +308,7 @@ private:
     }
 
     void read_face(const Property& property, Body& body) {
-        const std::size_t corners = body.whole(*property.count, "a number of corners", k_most_items);
+        const std::size_t corners = body.whole(*property.count, "a number of corners", k_max_items);
         if (mesh_.positions.empty() || corners < 3) {
             body.fail("three corners or more, after the vertices", std::to_string(corners));
         }

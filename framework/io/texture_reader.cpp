@@ -33,7 +33,7 @@ constexpr int k_largest_texture = 8192;
 /// own tables where a damaged file has more. Segments are found as stb_image finds them.
 bool has_sound_tables(std::string_view bytes) {
     constexpr int k_table = 17;  // a byte of its class, and how many codes there are of each length
-    constexpr int k_most_codes = 256;
+    constexpr int k_max_codes = 256;
     const auto byte = [&](std::size_t at) { return at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0; };
     for (std::size_t at = 0; at + 1 < bytes.size(); ++at) {
         const int marker = byte(at + 1);
@@ -49,7 +49,7 @@ bool has_sound_tables(std::string_view bytes) {
             for (int i = 1; i < k_table; ++i) {
                 codes += byte(table + static_cast<std::size_t>(i));
             }
-            if (codes > k_most_codes) {
+            if (codes > k_max_codes) {
                 return false;
             }
             table += static_cast<std::size_t>(k_table + codes);

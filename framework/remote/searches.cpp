@@ -12,8 +12,8 @@
 namespace raysteps::remote {
 namespace {
 
-constexpr std::size_t k_most_boxes = 2000;     // of one answer; a search that comes to more asks for them one by one
-constexpr std::size_t k_most_surfaces = 4096;  // likewise
+constexpr std::size_t k_max_boxes = 2000;     // of one answer; a search that comes to more asks for them one by one
+constexpr std::size_t k_max_surfaces = 4096;  // likewise
 
 struct OpenTree {
     const Bvh* bvh = nullptr;
@@ -33,7 +33,7 @@ void walk(const Bvh& bvh, const Visit& visit) {
     if (!bvh.nodes.empty()) {
         rest.push_back(0);
     }
-    for (std::size_t visited = 0; !rest.empty() && visited < k_most_boxes; ++visited) {
+    for (std::size_t visited = 0; !rest.empty() && visited < k_max_boxes; ++visited) {
         const std::uint32_t place = rest.back();
         rest.pop_back();
         const BvhNode& node = bvh.nodes[place];
@@ -57,7 +57,7 @@ void serve_boxes(Reader& in, Wire& wire) {
 /// Up to the first that ends the search.
 std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<std::uint32_t>& indices, const Ray& ray,
                                               float until) {
-    if (indices.size() > k_most_surfaces) {
+    if (indices.size() > k_max_surfaces) {
         throw BadMessage("more surfaces were asked than a leaf's");
     }
     const Use use = Groups::all().use(group);
@@ -259,7 +259,7 @@ std::optional<HitRecord> LeafEntry::intersect(const Ray& ray) const {
     const std::uint32_t index = leaf_->indices[place_];
     if (!known.knows(index)) {
         std::vector<std::uint32_t> rest;
-        for (std::size_t place = place_; place < leaf_->indices.size() && rest.size() < k_most_surfaces; ++place) {
+        for (std::size_t place = place_; place < leaf_->indices.size() && rest.size() < k_max_surfaces; ++place) {
             if (known.knows(leaf_->indices[place])) {
                 break;
             }

@@ -18,7 +18,7 @@ namespace raysteps {
 namespace {
 
 constexpr int k_fine = 256;          // places along each side of a pixel
-constexpr int k_most_rounds = 16;    // of samples in one pixel
+constexpr int k_max_rounds = 16;     // of samples in one pixel
 constexpr std::size_t k_least = 16;  // samples, before they say how far they are off
 constexpr float k_dark = 0.1F;
 
@@ -84,7 +84,7 @@ std::vector<PixelSample> samples_near(const FilmSampler::Film& film, int x, int 
 
 FilmSampler::FilmSampler(const Camera& camera, int side, const SamplingOptions& options)
     : side_(side), options_(options), fine_camera_(finer(camera, k_fine)), frame_(view_frame(fine_camera_)) {
-    const int points = side * side * (options.max_error > 0.0F ? k_most_rounds : 1);
+    const int points = side * side * (options.max_error > 0.0F ? k_max_rounds : 1);
     for (int index = 0; options.sampler == Sampler::halton && index < points; ++index) {
         halton_points_.push_back(halton_point(static_cast<std::uint32_t>(index)));
     }
@@ -107,7 +107,7 @@ std::vector<FilmSampler::FilmSample> FilmSampler::samples_of(int x, int y, Integ
     SampleId sample = first_sample(x, y);
     RandomStream random(options_.seed, pixel_number(x, y));
     const glm::vec2 shift = shift_of(random);
-    for (int round = 0; round == 0 || (round < k_most_rounds && !is_good_enough(samples)); ++round) {
+    for (int round = 0; round == 0 || (round < k_max_rounds && !is_good_enough(samples)); ++round) {
         for (const glm::vec2& point : points_of_round(round, shift, random)) {
             const Primary next = primary(x, y, point, sample);
             samples.push_back({.x = next.x, .y = next.y, .light = integrator.primary_color(next.ray, sample)});

@@ -31,7 +31,7 @@ except BaseException as error:
 raise SystemExit(code)
 """
 _HANGS = 're.match("(a+)+b", "a" * 60)'  # holds the interpreter for years: no signal is heard
-_MOST_SECONDS = 60
+_MAX_SECONDS = 60
 
 
 def _start(work: str, seconds: float, tmp_path: Path) -> "subprocess.Popen[str]":
@@ -51,7 +51,7 @@ def _runs(pid: int) -> bool:
 
 
 def _pid_of_work(tmp_path: Path) -> int:
-    end = time.monotonic() + _MOST_SECONDS
+    end = time.monotonic() + _MAX_SECONDS
     path = tmp_path / "pid"
     while not (path.is_file() and path.read_text()):
         assert time.monotonic() < end, "it does not begin"
@@ -61,7 +61,7 @@ def _pid_of_work(tmp_path: Path) -> int:
 
 def test_the_exit_code_is_that_of_the_work(tmp_path: Path) -> None:
     process = _start("3", 100, tmp_path)
-    _, said = process.communicate(timeout=_MOST_SECONDS)
+    _, said = process.communicate(timeout=_MAX_SECONDS)
     assert (process.returncode, said) == (3, "")
     assert not list((tmp_path / "scratch").iterdir())
 
@@ -69,7 +69,7 @@ def test_the_exit_code_is_that_of_the_work(tmp_path: Path) -> None:
 def test_a_hanging_grader_is_given_up(tmp_path: Path) -> None:
     process = _start(_HANGS, 1, tmp_path)
     pid = _pid_of_work(tmp_path)
-    _, said = process.communicate(timeout=_MOST_SECONDS)
+    _, said = process.communicate(timeout=_MAX_SECONDS)
     assert said == "raysteps: the grader gave up after 1 s; look at the submission by hand\n"
     assert process.returncode == 4
     assert not _runs(pid)
@@ -80,7 +80,7 @@ def test_ctrl_c_ends_a_hanging_grader(tmp_path: Path) -> None:
     process = _start(_HANGS, 1000, tmp_path)
     pid = _pid_of_work(tmp_path)
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does
-    _, said = process.communicate(timeout=_MOST_SECONDS)
+    _, said = process.communicate(timeout=_MAX_SECONDS)
     assert (process.returncode, said) == (130, "raysteps: interrupted\n")
     assert not _runs(pid)
     assert not list((tmp_path / "scratch").iterdir())
@@ -90,8 +90,8 @@ def test_a_grader_does_not_outlive_who_stands_beside_it(tmp_path: Path) -> None:
     process = _start(_HANGS, 1000, tmp_path)
     pid = _pid_of_work(tmp_path)
     process.kill()
-    process.communicate(timeout=_MOST_SECONDS)
-    end = time.monotonic() + _MOST_SECONDS
+    process.communicate(timeout=_MAX_SECONDS)
+    end = time.monotonic() + _MAX_SECONDS
     while _runs(pid) and Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z":
         assert time.monotonic() < end
         time.sleep(0.02)

@@ -270,7 +270,7 @@ SYSTEMS: dict[str, Callable[[Stage, list[Step], str], Shown]] = {
     "canvas": _canvas,
     "moodle": _moodle,
 }
-_MOST = {"prairielearn": 100, "canvas": None, "moodle": None}  # of the others: 120, with the bonus
+_MAX = {"prairielearn": 100, "canvas": None, "moodle": None}  # of the others: 120, with the bonus
 _WHOLE = ("classroom50", "classroom50 --legacy")
 _NO_TEXT = ("canvas",)
 
@@ -289,7 +289,7 @@ def test_what_a_student_sees(stage: Stage, steps: list[Step], system: str, kind:
     if system in _WHOLE:
         points = int(points + 0.5)
     assert shown.points == (min(points, 100) if system == "moodle" else points)
-    assert shown.most == _MOST.get(system, 120)
+    assert shown.most == _MAX.get(system, 120)
     if system in _NO_TEXT:
         return
     if kind == "broken":

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from raysteps.images.compare import (
-    MOST_OF_A_PICTURE,
+    MAX_PARTIAL_SHARE,
     TOLERANCE,
     PictureError,
     Pixels,
@@ -141,8 +141,8 @@ def test_a_picture_that_does_not_pass_earns_by_how_much_less_wrong_it_is() -> No
     half = reference.copy()
     half[5:15, 5:10] = 0
     assert 0 < for_nothing <= mean_error(np.zeros_like(reference), reference)
-    assert part_right(half, reference, for_nothing) == pytest.approx(MOST_OF_A_PICTURE / 2)
-    assert part_right(reference, reference, for_nothing) == MOST_OF_A_PICTURE
+    assert part_right(half, reference, for_nothing) == pytest.approx(MAX_PARTIAL_SHARE / 2)
+    assert part_right(reference, reference, for_nothing) == MAX_PARTIAL_SHARE
     assert part_right(np.full_like(reference, 90), reference, for_nothing) == 0, "one colour is no work"
     assert part_right(255 - reference, reference, for_nothing) == 0
     assert part_right(half[:10], reference, for_nothing) == 0, "another size"

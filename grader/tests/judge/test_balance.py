@@ -12,7 +12,7 @@ from raysteps.judge.worker import JudgedCase, reference_answers
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _SEEDS = range(1, 9)
-_MOST = 0.66  # of the ordinary cases, on average
+_MAX = 0.66  # of the ordinary cases, on average
 _EVER = 0.8
 
 
@@ -27,7 +27,7 @@ def test_no_constant_answer_is_right_in_most_ordinary_cases(kit: BuiltKit, proje
     assert len(found) == 5
     for step, plan, function in found:
         shares = [_for_nothing(kit, step, plan, function, seed) for seed in _SEEDS]
-        assert mean(shares) <= _MOST, (function.name, shares)
+        assert mean(shares) <= _MAX, (function.name, shares)
         assert max(shares) <= _EVER, (function.name, shares)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from raysteps.common.errors import GraderFault
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
-from raysteps.judge.bvhs import BVH, MOST_COST, MOST_LEVELS, MOST_NODES, Bvh, BvhNode, bvh_cost
+from raysteps.judge.bvhs import BVH, MAX_COST, MAX_LEVELS, MAX_NODES, Bvh, BvhNode, bvh_cost
 from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Box, Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
@@ -90,7 +90,7 @@ def test_wrong_trees(tree: str, said: str) -> None:
         "large",
         "large forests",
         f"bvh 1 {_ALL} 0 -1 2 0 1",
-        f"bvh {MOST_NODES + 1} " + f"{_ROOT} " * (MOST_NODES + 1) + "0",
+        f"bvh {MAX_NODES + 1} " + f"{_ROOT} " * (MAX_NODES + 1) + "0",
         f"bvh 1 {_ALL} 0 2 99999999 0 1",
         f"{_GOOD} 1",
         "bvh 3 1 2 3",
@@ -108,7 +108,7 @@ def test_the_levels_are_counted() -> None:
         root, rest = words[:8], words[8:]
         return f"bvh {2 * levels - 1} {' '.join(root)} {' '.join(rest)} 0 0 0 9 9 9 {levels - 1} 1"
 
-    for levels, said in ((MOST_LEVELS, ""), (MOST_LEVELS + 1, f"more than {MOST_LEVELS} levels")):
+    for levels, said in ((MAX_LEVELS, ""), (MAX_LEVELS + 1, f"more than {MAX_LEVELS} levels")):
         inputs: Inputs = {"surfaces": Surfaces((Sphere((4.0, 4.0, 4.0), 1.0),) * levels)}
         line = f"{chain(levels)} {levels} {' '.join(map(str, range(levels)))}"
         good = f"bvh 1 0 0 0 9 9 9 0 {levels} {levels} {' '.join(map(str, range(levels)))}"
@@ -140,7 +140,7 @@ def test_many_surfaces_must_be_divided_well() -> None:
     root = " ".join(_row(4, 37).split(" ")[2:8])
     inflated = _row(4, 37).replace(root, "-300 -300 -300 300 300 300", 1)
     assert "dear" in verdict(inflated).problem, "a larger root makes no tree cheaper"
-    assert MOST_COST > 1.5
+    assert MAX_COST > 1.5
 
 
 def test_a_tree_that_was_too_large_to_tell() -> None:
@@ -151,7 +151,7 @@ def test_a_tree_that_was_too_large_to_tell() -> None:
 
 
 def test_the_largest_tree_is_judged_at_once() -> None:
-    line = f"bvh {MOST_NODES} " + " ".join(f"{_ALL} {i + 1} 0" for i in range(MOST_NODES)) + " 2 0 1"
+    line = f"bvh {MAX_NODES} " + " ".join(f"{_ALL} {i + 1} 0" for i in range(MAX_NODES)) + " 2 0 1"
     start = time.process_time()
     assert _problem(line) != ""
     assert time.process_time() - start < 0.5

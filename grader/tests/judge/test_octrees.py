@@ -8,7 +8,7 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
 from raysteps.judge.functions import Case
-from raysteps.judge.octrees import DEEPEST, MOST_ENTRIES, MOST_NODES, TREE
+from raysteps.judge.octrees import DEEPEST, MAX_ENTRIES, MAX_NODES, TREE
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
 
@@ -73,13 +73,13 @@ def test_wrong_trees(tree: str, said: str) -> None:
         "large forests",
         "tree",
         f"tree {_ALL} 0 100000 {_WEST}",
-        f"tree {_ALL} 0 {MOST_NODES} " + f"{_ALL} 0 0 " * MOST_NODES,
+        f"tree {_ALL} 0 {MAX_NODES} " + f"{_ALL} 0 0 " * MAX_NODES,
         f"tree {_ALL} 99999999 0",
-        f"tree {_ALL} {MOST_ENTRIES} " + "0 " * MOST_ENTRIES + f"1 {_ALL} 1 0 0",
+        f"tree {_ALL} {MAX_ENTRIES} " + "0 " * MAX_ENTRIES + f"1 {_ALL} 1 0 0",
         f"tree {_ALL} 1 1001 0",
         "tree " + "1 " * 3_000_000,
         "tree " + f"{_ALL} 0 1 " * (DEEPEST + 1) + f"{_ALL} 2 0 1 0",
-        _chain(MOST_NODES),
+        _chain(MAX_NODES),
         f"tree {_ALL} 0 8 " + f"{_ALL} 0 8 " * 5000,
         f"{_GOOD} 1",
         "tree 1 2 3",
@@ -106,16 +106,16 @@ def test_a_forged_chain_takes_little_memory() -> None:
 
 def test_the_largest_tree_is_judged_at_once() -> None:
     """Every list is as long as it may be, and no box holds a surface as a whole but the last one."""
-    size = (MOST_ENTRIES - 100) // MOST_NODES
+    size = (MAX_ENTRIES - 100) // MAX_NODES
     boxes = [f"{_AROUND_HUNDRED} {size} {' '.join(str((i + j) % 100) for j in range(size))} 0" for i in range(100)]
     halves = [box.replace("10 10 1", f"{i % 10} {i // 10} 0", 1) for i, box in enumerate(boxes)]
-    line = f"{_WHOLE_HUNDRED} {MOST_NODES - 1} " + " ".join([*(halves * MOST_NODES)[: MOST_NODES - 2], boxes[0]])
+    line = f"{_WHOLE_HUNDRED} {MAX_NODES - 1} " + " ".join([*(halves * MAX_NODES)[: MAX_NODES - 2], boxes[0]])
     start = time.process_time()
     TREE.parse(line)
     read = time.process_time()
     verdict = Case("build_octree", "", _HUNDRED).verdict(TREE, _GOOD_HUNDRED, line)  # which reads it, too
     assert time.process_time() - read < 12 * (read - start), "judging a tree takes much longer than reading it"
-    assert verdict.actual.startswith(f"a tree of {MOST_NODES} boxes")
+    assert verdict.actual.startswith(f"a tree of {MAX_NODES} boxes")
 
 
 @pytest.mark.parametrize(

@@ -94,7 +94,7 @@ def test_a_server_that_dies_while_many_wait_costs_no_task(hostile: Path, servers
 def test_without_any_server_a_task_runs_all_the_same(misbehave: Misbehave, servers: keepers._Servers) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(keepers, "_KEEPER", [sys.executable, "-c", ""])
-        for _ in range(keepers._MOST_FAILURES):
+        for _ in range(keepers._MAX_FAILURES):
             assert servers.fork({}, ["/bin/true"], {}) is None
     assert misbehave(LimitsOnly(), "code", "4").outcome.code == 4
     assert servers._server is None

@@ -238,7 +238,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     return 1 if inspected.record.endless else 0
 
 
-_MOST_PIXELS = 1 << 20  # of a picture in a page
+_MAX_PIXELS = 1 << 20  # of a picture in a page
 _PICTURE_SECONDS = 60
 
 
@@ -246,7 +246,7 @@ def _picture(tree: BuildTree, impl: str, inspected: InspectResult, options: Insp
     """The picture that the pixel is one of; none where it is very large, or does not come to its end."""
     assert inspected.record is not None
     camera = inspected.record.camera
-    if camera["width"] * camera["height"] > _MOST_PIXELS:
+    if camera["width"] * camera["height"] > _MAX_PIXELS:
         return None
     program = build_program(tree, "raytrace", impl)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:

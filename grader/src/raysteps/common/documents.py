@@ -17,10 +17,10 @@ from raysteps.common.text import shorten
 
 T = TypeVar("T")
 
-_MOST = 2**63 - 1
-Count = Annotated[int, Meta(ge=0, le=_MOST)]
+_MAX = 2**63 - 1
+Count = Annotated[int, Meta(ge=0, le=_MAX)]
 # a whole number is written again as it was read
-Amount = Annotated[int, Meta(ge=0, le=_MOST)] | Annotated[float, Meta(ge=0, le=float(_MOST))]
+Amount = Annotated[int, Meta(ge=0, le=_MAX)] | Annotated[float, Meta(ge=0, le=float(_MAX))]
 Share = Annotated[int, Meta(ge=0, le=1)] | Annotated[float, Meta(ge=0, le=1)]
 Text = Annotated[str, Meta(min_length=1)]
 

@@ -184,13 +184,13 @@ _WORDS_OF_CODE = {"return", "else", "do", "case", "default", "goto", "throw", "n
 _STATEMENT_ENDS = frozenset(";{}\n")
 _OF_TYPES = frozenset(":<>,&*[]")
 _GO_ON = (",", "<", ":", "[")  # whatever stands before, a type does not end with one of these
-_MOST_BEFORE = 100  # tokens of a declaration before its name
+_MAX_BEFORE = 100  # tokens of a declaration before its name
 
 
 def _is_declared(code: Sequence[str], at: int) -> bool:
     """Whether a type, and nothing but a type, stands between the name there and the statement before."""
     first = at
-    while first > 0 and at - first < _MOST_BEFORE and code[first - 1] not in _STATEMENT_ENDS:
+    while first > 0 and at - first < _MAX_BEFORE and code[first - 1] not in _STATEMENT_ENDS:
         first -= 1
     before = list(code[first:at])
     while before[-2:] == [":", ":"]:  # names that it is qualified by

@@ -174,7 +174,7 @@ def _scope(head: list[str], scopes: Sequence[str]) -> str:
 
 _PERHAPS = "perhaps-without-value"
 _OF_GLM = "Look for a declaration without a value: `glm::vec3 sum;` holds anything, `glm::vec3 sum(0.0F);` begins at 0."
-_MOST_NAMED = 3
+_MAX_NAMED = 3
 
 
 def _warned(step: Step, log: str) -> Unset | None:
@@ -194,7 +194,7 @@ def used_without_value(
     seen = {name for names, right, got in said if _has_no_value(got) and not _has_no_value(right) for name in names}
     names = [name for name in step.functions if name in seen]
     if names:
-        meant = [*filter(None, [_warned(step, result.build_log)])] or unset[:_MOST_NAMED]
+        meant = [*filter(None, [_warned(step, result.build_log)])] or unset[:_MAX_NAMED]
         title = f"In {join_and(names)} a variable is used that was given no value: numbers like -1.7e+38 come of that."
         where = f"where {'they are' if len(meant) > 1 else 'it is'} declared"
         hint = f"Give {join_and(list(map(str, meant)))} a value {where}." if meant else _OF_GLM
@@ -212,7 +212,7 @@ def warned_of(step: Step, result: StepResult) -> Iterator[Diagnosis]:
 def asked_about(unset: Sequence[Unset]) -> Iterator[Diagnosis]:
     """Whether such variables are set later, which nobody can see from outside: a bool is right half of the time."""
     if unset:
-        named = join_some(list(map(str, unset)), _MOST_NAMED)
+        named = join_some(list(map(str, unset)), _MAX_NAMED)
         is_one = len(unset) == 1
         title = f"{named} {'is' if is_one else 'are'} declared without a value."
         hint = f"Is {'it' if is_one else 'each'} set on every way to where it is read?"

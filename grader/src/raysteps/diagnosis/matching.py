@@ -240,7 +240,7 @@ _MAX = 3
 _HAIR = 0.03  # mistakes whose worth differs by less cannot be told apart
 _PICTURE = 0.5  # what a picture counts beside a function
 _AGAINST = 0.25
-_MOST_AGAINST = 3  # pictures that are right speak against a mistake, but many of them no louder than three
+_MAX_AGAINST = 3  # pictures that are right speak against a mistake, but many of them no louder than three
 _NOT_ITS_OWN = 0.3  # the function in which the mistake sits is right here
 
 
@@ -278,7 +278,7 @@ class _Open:
         if not explained or match.is_another() or not (functions or match.named_by_pictures()):
             return 0.0
         worth = sum(score * (_PICTURE if name in match.pictures else 1.0) for name, score in explained.items())
-        worth -= _AGAINST * min(len(match.against), _MOST_AGAINST)
+        worth -= _AGAINST * min(len(match.against), _MAX_AGAINST)
         return worth - (_NOT_ITS_OWN if match.functions and match.mutant.function not in functions else 0.0)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.images.compare import (
-    MOST_OF_A_PICTURE,
+    MAX_PARTIAL_SHARE,
     Comparison,
     Pixels,
     compare,
@@ -101,7 +101,7 @@ def part_of_a_picture(
     pixels_pass: bool,
 ) -> float:
     """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
-    pixels = MOST_OF_A_PICTURE
+    pixels = MAX_PARTIAL_SHARE
     if rendered.pixels is not None and (not pixels_pass or gate.max_noise is not None):
         pixels = part_of_its_pixels(kit, step, scene, gate, rendered)
     return round(pixels * _part_spared(rendered.share_tested, max_share), 6)

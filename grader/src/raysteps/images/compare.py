@@ -147,7 +147,7 @@ class Comparison:
     message: str
 
 
-MOST_OF_A_PICTURE = 0.6  # of its points are for one that does not pass
+MAX_PARTIAL_SHARE = 0.6  # of its points are for one that does not pass
 _WHOLLY_WRONG = 64  # of 255: a pixel that is farther off is no nearer to right than any other
 
 
@@ -162,7 +162,7 @@ def part_right(mine: Pixels, reference: Pixels, for_nothing: float) -> float:
     `for_nothing`: the error of that one."""
     if mine.shape != reference.shape or is_flat(mine) or for_nothing <= 0:
         return 0.0
-    return MOST_OF_A_PICTURE * max(0.0, 1 - mean_error(mine, reference) / for_nothing)
+    return MAX_PARTIAL_SHARE * max(0.0, 1 - mean_error(mine, reference) / for_nothing)
 
 
 def error_without_work(reference: Pixels) -> float:

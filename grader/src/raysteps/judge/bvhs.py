@@ -8,14 +8,14 @@ from raysteps.judge.protocol import Box, Inputs, ProtocolError, TokenReader
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
 # Whoever writes an answer by hand may write any tree; framework/worker/simple_bvh.cpp knows the same numbers.
-MOST_NODES = 5000
-MOST_ENTRIES = 50000
-_MAX = {"nodes": f"{MOST_NODES} nodes", "surfaces": f"{MOST_ENTRIES} surfaces"}
-MOST_LEVELS = 64  # as the contract says
+MAX_NODES = 5000
+MAX_ENTRIES = 50000
+_MAX = {"nodes": f"{MAX_NODES} nodes", "surfaces": f"{MAX_ENTRIES} surfaces"}
+MAX_LEVELS = 64  # as the contract says
 _MARGIN = 1e-4  # of the scene's size: what rounding may do to a box
 _BOX_TESTS = 1.0  # of two boxes, in units of one surface test
 _MANY = 80  # surfaces: so many must be divided well
-MOST_COST = 3.0  # times the reference's
+MAX_COST = 3.0  # times the reference's
 _MAX_IN_LEAF = 0.5  # of many surfaces, on average
 
 
@@ -42,11 +42,11 @@ def read_bvh(tokens: TokenReader) -> Bvh:
     if kind != "bvh":
         raise ProtocolError("the answer is no tree")
     nodes = []
-    for _ in range(tokens.whole(0, MOST_NODES)):
+    for _ in range(tokens.whole(0, MAX_NODES)):
         box = Box(tokens.vector(), tokens.vector())
         nodes.append(BvhNode(box, tokens.whole(0, (1 << 32) - 1), tokens.whole(0, (1 << 32) - 1)))
-    size = tokens.whole(0, MOST_ENTRIES)
-    return Bvh(tuple(nodes), tokens.wholes(size, -1, MOST_ENTRIES))
+    size = tokens.whole(0, MAX_ENTRIES)
+    return Bvh(tuple(nodes), tokens.wholes(size, -1, MAX_ENTRIES))
 
 
 def area(box: Box) -> float:
@@ -134,8 +134,8 @@ def _structure_problem(tree: Bvh, boxes: Sequence[Box]) -> str:
             return "a node is reached twice"
         reached.add(place)
         node = tree.nodes[place]
-        if level > MOST_LEVELS:
-            return f"the tree has more than {MOST_LEVELS} levels"
+        if level > MAX_LEVELS:
+            return f"the tree has more than {MAX_LEVELS} levels"
         if node.count:
             if problem := _leaf_problem(tree, node, boxes, margin, seen):
                 return problem
@@ -169,7 +169,7 @@ def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
     if sum(node.count > 0 for node in reached(actual)) < 1 / _MAX_IN_LEAF:
         return TooMuchWork("the tree has hardly any leaves: a ray is spared nothing")
     whole = expected.nodes[0].box
-    dear = bvh_cost(actual, whole) > MOST_COST * bvh_cost(expected, whole)
+    dear = bvh_cost(actual, whole) > MAX_COST * bvh_cost(expected, whole)
     return "the tree is right, but its cuts are dear" if dear else ""
 
 

@@ -10,7 +10,7 @@ from raysteps.judge.protocol import ProtocolError, TokenReader, Whole, f32, text
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers, off
 
-_MOST = 40_000
+_MAX = 40_000
 _UNIT = 1e-4
 
 
@@ -21,7 +21,7 @@ def draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
 
 def read_directions(tokens: TokenReader) -> Numbers:
     """Row by row."""
-    return tokens.rows(3, _MOST)
+    return tokens.rows(3, _MAX)
 
 
 def _words_of(v: Sequence[float] | Numbers) -> str:
@@ -92,7 +92,7 @@ def read_samples_and_first(tokens: TokenReader) -> tuple[Samples, bool]:
 
 def _optional_samples(tokens: TokenReader) -> tuple[list[bool], Numbers]:
     """Which are there, and those."""
-    there, rows = tokens.optional_rows(8, _MOST)
+    there, rows = tokens.optional_rows(8, _MAX)
     if not np.isin(rows[:, 7], (0, 1)).all():
         raise ProtocolError("the answer holds another word where a flag belongs")
     return there, rows

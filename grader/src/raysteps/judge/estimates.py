@@ -19,7 +19,7 @@ from raysteps.judge.statistics import DEVIATIONS, Numbers, off
 
 BATCHES = 256  # as in the worker
 _PRECISION_OF_A_BIAS = 11.5  # DEVIATIONS, as a t-test asks for them, and three more to be sure
-_MOST = 200_000  # estimates for one case
+_MAX = 200_000  # estimates for one case
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Estimates:
 def plan(draw: RandomSource, bias: float) -> Inputs:
     """As many estimates as it takes to find a bias of that share of the mean."""
     seed = draw.whole(1, 1_000_000_000)
-    return {"seed": Whole(seed), "precision": Real(f32(bias / _PRECISION_OF_A_BIAS)), "most": Whole(_MOST)}
+    return {"seed": Whole(seed), "precision": Real(f32(bias / _PRECISION_OF_A_BIAS)), "most": Whole(_MAX)}
 
 
 def read_estimates(tokens: TokenReader) -> Estimates:
@@ -99,11 +99,11 @@ def has_right_mean(batches: Numbers, mean: float) -> bool:
     return abs(float(batches.mean()) - mean) <= limit(batches) * error + _ROUNDING.of(mean)
 
 
-_MOST_WORK = 5.0  # times the reference's, before it counts as noise that need not be
+_MAX_WORK = 5.0  # times the reference's, before it counts as noise that need not be
 
 
 def estimates_problem(
-    what: str, mean: Vector, expected: Estimates, actual: Estimates, most_work: float = _MOST_WORK
+    what: str, mean: Vector, expected: Estimates, actual: Estimates, most_work: float = _MAX_WORK
 ) -> str:
     """Whether the same stream gives the same, the mean is right, and no needless noise is in it: an estimate that is
     right on average, but takes many more of them, or many more rays, to be of use."""

@@ -16,7 +16,7 @@ from raysteps.judge.counterexamples import LONGEST, Examples
 from raysteps.judge.functions import AGAIN, Case, Function, Group, functions_of, seed_of
 from raysteps.judge.plan import FunctionPlan, Plan
 from raysteps.judge.protocol import Inputs
-from raysteps.judge.random_source import MOST_TRIES, RandomSource
+from raysteps.judge.random_source import MAX_TRIES, RandomSource
 from raysteps.judge.statistics import Uneven
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply
 from raysteps.results.model import CaseGroup, HiddenResult, ImageResult, Termination
@@ -69,7 +69,7 @@ def cases_asked_again(function: Function, kind: str, seed: str, amount: int) -> 
     ordinary = function.groups[0]
     draw, turn = Recorder(seed), RandomSource(f"{seed}/neighbours")
     found: list[Inputs] = []
-    for asked in range(MOST_TRIES):
+    for asked in range(MAX_TRIES):
         draw.choices.clear()
         inputs = ordinary.make(draw)
         names = list(inputs)
@@ -194,7 +194,7 @@ def _with_a_mistake(share: float) -> float:
 # every object itself, so few that were counted prove nothing: what must have spared them is the tree, which the judge
 # looks at. Where it spares nothing, few tests earn nothing either.
 
-_MOST_WASTE = 0.5  # of a kind of cases
+_MAX_WASTE = 0.5  # of a kind of cases
 _TOO_GOOD = 0.25  # of what is allowed: not even rays into the empty sky make it so little
 
 
@@ -205,7 +205,7 @@ def spares_nothing(function: Function, judged: Sequence[JudgedCase]) -> bool:
         problems = [one.verdict.problem for one in judged if one.asked and one.case.group == group.name]
         readable = [problem for problem in problems if not isinstance(problem, TooLarge)]
         wasteful = sum(isinstance(problem, TooMuchWork) for problem in readable)
-        if group.saves and all(readable) and wasteful > _MOST_WASTE * len(readable):
+        if group.saves and all(readable) and wasteful > _MAX_WASTE * len(readable):
             return True
     return False
 

@@ -96,12 +96,12 @@ class Boxes:
 _Table: TypeAlias = npt.NDArray[np.bool_]  # of nodes (rows) and surfaces (columns)
 
 # Whoever writes an answer by hand may write any tree; framework/worker/simple_octree.cpp knows the same numbers.
-MOST_NODES = 5000
-MOST_ENTRIES = 50000
+MAX_NODES = 5000
+MAX_ENTRIES = 50000
 DEEPEST = 500
 _MAX = {
-    "boxes": f"{MOST_NODES} boxes",
-    "entries": f"{MOST_ENTRIES} entries in its lists",
+    "boxes": f"{MAX_NODES} boxes",
+    "entries": f"{MAX_ENTRIES} entries in its lists",
     "levels": f"{DEEPEST} levels",
 }
 _MAX_SURFACES = 1000  # of any case
@@ -142,12 +142,12 @@ def read_tree(tokens: TokenReader) -> Tree:
     while open_:
         parent, depth = open_.pop()
         low, high = tokens.vector(), tokens.vector()
-        size = tokens.whole(0, MOST_ENTRIES - entries)
+        size = tokens.whole(0, MAX_ENTRIES - entries)
         entries += size
         known = tokens.wholes(size, -1, _MAX_SURFACES)
-        children = tokens.whole(0, MOST_NODES)
+        children = tokens.whole(0, MAX_NODES)
         nodes.append(TreeNode(low, high, known, parent, children == 0))
-        if len(nodes) + len(open_) + children > MOST_NODES or depth > DEEPEST:
+        if len(nodes) + len(open_) + children > MAX_NODES or depth > DEEPEST:
             raise ProtocolError("the tree is too large")
         open_ += [(len(nodes) - 1, depth + 1)] * children
     return Tree(tuple(nodes))

@@ -11,7 +11,7 @@ from raysteps.judge.protocol import Fill, Light, Ray, f32, rounded
 from raysteps.judge.surfaces import Sphere, Triangle
 
 T = TypeVar("T")
-MOST_TRIES = 100_000
+MAX_TRIES = 100_000
 
 
 def circle(turn: float) -> tuple[float, float]:
@@ -49,11 +49,11 @@ class RandomSource:
 
     def until(self, good: Callable[[T], bool], make: Callable[[], T]) -> T:
         """The first that is good. A kind of cases that finds none is the kit's fault, not an endless loop."""
-        for _ in range(MOST_TRIES):
+        for _ in range(MAX_TRIES):
             found = make()
             if good(found):
                 return found
-        raise GraderFault(f"of {MOST_TRIES} cases that were drawn for the judge not one is usable")
+        raise GraderFault(f"of {MAX_TRIES} cases that were drawn for the judge not one is usable")
 
     def real(self, low: float, high: float) -> float:
         return f32(self.fine(low, high))

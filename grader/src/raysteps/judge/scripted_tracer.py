@@ -6,7 +6,7 @@ from typing import Generic, Protocol, TypeVar
 from raysteps.common.vectors import Vector
 from raysteps.judge.protocol import Number, Ray, TokenReader, text, vector_words
 
-MOST_ASKED = 1000
+MAX_ASKED = 1000
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,8 @@ class TracedCall:
 
 def read_traced(tokens: TokenReader) -> TracedCall:
     color = tokens.vector()
-    cast = tuple(Ray(tokens.vector(), tokens.vector()) for _ in range(tokens.whole(0, MOST_ASKED)))
-    shaded = tuple((tokens.real(), tokens.whole(-MOST_ASKED)) for _ in range(tokens.whole(0, MOST_ASKED)))
+    cast = tuple(Ray(tokens.vector(), tokens.vector()) for _ in range(tokens.whole(0, MAX_ASKED)))
+    shaded = tuple((tokens.real(), tokens.whole(-MAX_ASKED)) for _ in range(tokens.whole(0, MAX_ASKED)))
     return TracedCall(color, cast, shaded)
 
 

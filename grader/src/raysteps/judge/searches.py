@@ -11,7 +11,7 @@ from raysteps.judge.protocol import Inputs, Number, ProtocolError, Ray, TokenRea
 from raysteps.judge.surfaces import Surfaces
 
 _MAX_RAYS = 1000
-MOST_ASKED = 0.5  # of the surfaces, by a ray on average, where there are many rays
+MAX_ASKED_SHARE = 0.5  # of the surfaces, by a ray on average, where there are many rays
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def too_many_asked(inputs: Inputs, expected: Sequence[int], asked: Sequence[int]
     """Where there are many rays, the boxes must spare them most of the surfaces, whatever the reference asked."""
     surfaces = inputs["surfaces"]
     assert isinstance(surfaces, Surfaces)
-    if len(asked) > 1 and sum(asked) > MOST_ASKED * len(surfaces.surfaces) * len(asked):
+    if len(asked) > 1 and sum(asked) > MAX_ASKED_SHARE * len(surfaces.surfaces) * len(asked):
         return TooMuchWork(
             "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
         )
@@ -205,7 +205,7 @@ def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int])
     if len(actual) < 2 or not surfaces.surfaces:
         return ""
     share = sum(actual) / (len(surfaces.surfaces) * len(actual))
-    if share > MOST_ASKED:
+    if share > MAX_ASKED_SHARE:
         said = "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
         return TooMuchWork(said) if share > _ALL_ASKED else said
     if not tree.own and sum(actual) > _MAX_TIMES * sum(expected):

@@ -37,7 +37,7 @@ from raysteps.images.noise import read_estimates, with_samples
 from raysteps.images.render import ENDLESS, reference_image_path, stored_parts
 from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
-from raysteps.play.web_kit import MOST_AT_ONCE, WebKit, headers_path
+from raysteps.play.web_kit import MAX_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
 from raysteps.report.wording import inspect_options
 from raysteps.toolchain.kit_artifacts import paced
@@ -224,7 +224,7 @@ class PlayPage:
         steps = course_steps(self._project)
         parts = self._kit.parts()
         self._say("packing the compiler and its headers")
-        with ThreadPoolExecutor(MOST_AT_ONCE) as pool:
+        with ThreadPoolExecutor(MAX_AT_ONCE) as pool:
             clang = pool.submit(_squeezed, self._clang.wasm)
             compiled = {step.number: one for step, one in zip(steps, pool.map(self._compiled, steps), strict=True)}
         kit = {

@@ -51,7 +51,7 @@ _HEADERS = {
     "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h"),
 }
 _USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
-MOST_AT_ONCE = min(4, os.cpu_count() or 1)  # each takes some 300 MB
+MAX_AT_ONCE = min(4, os.cpu_count() or 1)  # each takes some 300 MB
 # What many sources include is read once, in a quarter of the time, as by cmake/precompiled.cmake. What a student writes
 # is compiled as if there were none.
 _COMMON = "algorithm cmath filesystem functional map memory optional sstream string variant vector core/scene.hpp"
@@ -331,7 +331,7 @@ class WebKit:
         parts = {name: self._wanted[name] for name in names}
         wanted = [one for one in dict.fromkeys(itertools.chain(*parts.values())) if one not in self._made_before]
         _ = self._commands, self._places, self._common_mark  # before several ask for them at once
-        with ThreadPoolExecutor(MOST_AT_ONCE) as pool:
+        with ThreadPoolExecutor(MAX_AT_ONCE) as pool:
             jobs = {pool.submit(self._made, one): one for one in wanted}
             for done, job in enumerate(as_completed(jobs), 1):
                 self._made_before[jobs[job]] = job.result()

@@ -281,13 +281,13 @@ def _test(test: TestResult, once: SaidOnce) -> dict[str, object]:
     }
 
 
-_MOST_BARS = 64  # of a file that may be anybody's
+_MAX_BARS = 64  # of a file that may be anybody's
 _WIDE, _TALL = 320, 96  # a drawing of how numbers are spread
 
 
 def _spread(found: Histogram | None) -> dict[str, object] | None:
     """Bars for what came, and a line, with steps, for what should come."""
-    if found is None or not 0 < len(found.counts) == len(found.expected) <= _MOST_BARS:
+    if found is None or not 0 < len(found.counts) == len(found.expected) <= _MAX_BARS:
         return None
     top = max(1.0, *found.counts, *found.expected)
     width = _WIDE / len(found.counts)

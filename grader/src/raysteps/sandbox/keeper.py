@@ -165,7 +165,7 @@ def keep(settings: Settings, command: list[str]) -> None:
 # The fork server, on Linux.
 
 _NUMBER_BYTES = 8
-_MOST_FILES = 253  # that can come along, as the system has it
+_MAX_FILES = 253  # that can come along, as the system has it
 
 
 def _place(files: dict[int, int]) -> None:
@@ -213,7 +213,7 @@ def fork_server(asked: "_socket.socket", grader: int) -> None:
     by and with those that it is to have open."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     while True:
-        head, extra, _, _ = asked.recvmsg(_NUMBER_BYTES, _socket.CMSG_SPACE(4 * _MOST_FILES))
+        head, extra, _, _ = asked.recvmsg(_NUMBER_BYTES, _socket.CMSG_SPACE(4 * _MAX_FILES))
         head += _receive(asked, _NUMBER_BYTES - len(head)) if head else b""
         size = int.from_bytes(head, "little")
         wanted = _receive(asked, size)

@@ -20,7 +20,7 @@ from raysteps.sandbox.task import StartedProcess
 _KEEPER = [sys.executable, "-I", "-S", str(Path(__file__).with_name("keeper.py"))]
 _NUMBER_BYTES = 8  # as keeper.py has it, which is no part of the package
 _PATIENCE = 20.0  # seconds, for a server that answers in thousandths of one
-_MOST_FAILURES = 3
+_MAX_FAILURES = 3
 
 
 class _Forked:
@@ -107,7 +107,7 @@ class _Servers:
     def fork(self, settings: dict[str, Any], command: list[str], files: dict[int, int]) -> int | None:
         """The number of a keeper's process, which has each of the files open under the number that is its key. None
         where no server forks one: then no command runs, either."""
-        if self._failures >= _MOST_FAILURES:
+        if self._failures >= _MAX_FAILURES:
             return None
         wanted = marshal.dumps((settings, command, list(files)))
         answer, theirs = os.pipe()

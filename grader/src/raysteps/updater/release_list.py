@@ -187,7 +187,7 @@ def _is_as_released(path: Path, file: ListedFile | None) -> bool:
         return False
 
 
-_MOST_NAMED = 5
+_MAX_NAMED = 5
 _BUILT = ("CMakeLists.txt", "cmake/", "framework/", "scenes/", "steps/")  # or drawn, or tested with
 
 
@@ -208,9 +208,9 @@ def about_changed(root: Path) -> str:
     names = changed_files(root)
     if not names:
         return ""
-    more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
+    more = f" and {len(names) - _MAX_NAMED} more" if len(names) > _MAX_NAMED else ""
     return (
-        f"Not as the kit was given out, and not handed in: {', '.join(names[:_MOST_NAMED])}{more}. Your course grades "
+        f"Not as the kit was given out, and not handed in: {', '.join(names[:_MAX_NAMED])}{more}. Your course grades "
         "with the kit's own: put back what it had, from a fresh copy, or with `git restore` if nothing was committed."
     )
 

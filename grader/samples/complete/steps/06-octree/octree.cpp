@@ -258,14 +258,14 @@ Node build_octree(const SurfaceList& surfaces) {
     if (surfaces.empty()) {
         return {};
     }
-    constexpr std::size_t k_most_above = 8;
+    constexpr std::size_t k_max_above = 8;
     const float limit = largest_below(surfaces);
     SurfaceList large;
     SurfaceList others;
     for (const Surface* surface : surfaces) {
         (diagonal(surface->bounds()) > limit ? large : others).push_back(surface);
     }
-    if (large.size() > k_most_above) {
+    if (large.size() > k_max_above) {
         large.clear();
         others = SurfaceList(surfaces);
     }

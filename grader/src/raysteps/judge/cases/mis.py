@@ -434,7 +434,7 @@ def mean_of_plates(script: MisScript) -> Vector:
     return x, y, z
 
 
-_MOST_WORK = 12.0  # times the reference's: other weights that add up to 1 take up to 6, one way alone 40 and more
+_MAX_WORK = 12.0  # times the reference's: other weights that add up to 1 take up to 6, one way alone 40 and more
 
 
 def _many_problem(inputs: Inputs, expected: Estimates, actual: Estimates) -> str:
@@ -443,7 +443,7 @@ def _many_problem(inputs: Inputs, expected: Estimates, actual: Estimates) -> str
     assert isinstance(script, MisScript)
     mean = mean_of_plates(script) if script.hits[-1].exponent > 0 else mean_of_walls(script)
     return first(
-        estimates_problem("the light", mean, expected, actual, _MOST_WORK),
+        estimates_problem("the light", mean, expected, actual, _MAX_WORK),
         length_problem(expected, actual) if actual.cost * expected.count > expected.cost * actual.count else "",
     )
 

@@ -44,7 +44,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
-from raysteps.judge.scripted_tracer import MOST_ASKED, MisScript, PathHit, PathScript, Scatter
+from raysteps.judge.scripted_tracer import MAX_ASKED, MisScript, PathHit, PathScript, Scatter
 from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform, off, uneven
 
 # Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
@@ -337,7 +337,7 @@ def _read_light(tokens: TokenReader) -> _Light:
         x, y, z = (float(channel) for channel in many.mean)
         return _Light((x, y, z), (), many)
     color = tokens.vector()
-    return _Light(color, tuple(Ray(tokens.vector(), tokens.vector()) for _ in range(tokens.whole(0, MOST_ASKED))), None)
+    return _Light(color, tuple(Ray(tokens.vector(), tokens.vector()) for _ in range(tokens.whole(0, MAX_ASKED))), None)
 
 
 def _words_of_light(light: _Light) -> str:

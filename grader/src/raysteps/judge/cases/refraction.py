@@ -22,7 +22,7 @@ from raysteps.judge.protocol import (
     vector_words,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.scripted_tracer import MOST_ASKED
+from raysteps.judge.scripted_tracer import MAX_ASKED
 
 # What the cases of step 08 share: glass, and rays that meet it on this or that side of the critical angle.
 
@@ -182,9 +182,9 @@ class _Brought:
 
 def _read_brought(tokens: TokenReader) -> _Brought:
     color = tokens.vector()
-    count = tokens.whole(0, MOST_ASKED)
+    count = tokens.whole(0, MAX_ASKED)
     return _Brought(
-        color, tuple((Ray(tokens.vector(), tokens.vector()), tokens.whole(-MOST_ASKED)) for _ in range(count))
+        color, tuple((Ray(tokens.vector(), tokens.vector()), tokens.whole(-MAX_ASKED)) for _ in range(count))
     )
 
 

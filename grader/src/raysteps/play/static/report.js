@@ -10,9 +10,9 @@ const HEX = / \(0x[0-9a-f]{1,16}\)/g;
 const MATCHED = " is expected to ";
 const VERBS = { "be ": "= ", "have ": "has ", "point ": "points " };
 const TROUBLE = { Exception: "threw: ", FatalErrorCondition: "crashed: " };
-const MOST_LETTERS = 2000;
+const MAX_LETTERS = 2000;
 
-export function shorten(text, limit = MOST_LETTERS) {
+export function shorten(text, limit = MAX_LETTERS) {
   return text.length <= limit ? text : `${text.slice(0, limit)} ...`;
 }
 

@@ -21,7 +21,7 @@ const TRUNCATE = 8;
 const APPEND = 1;
 
 const ROOT = 3; // the descriptor of the one folder that programs find open
-const MOST_PRINTED = 1 << 20; // bytes
+const MAX_PRINTED = 1 << 20; // bytes
 
 let lastInode = 0;
 
@@ -259,7 +259,7 @@ class Process {
   #writeTo(open, list, count, total) {
     if (open?.kind === DEVICE) {
       return this.#each(list, count, total, (buffer) => {
-        if (this.#printed < MOST_PRINTED) {
+        if (this.#printed < MAX_PRINTED) {
           this.#printed += buffer.length;
           this.#print(open.name, buffer.slice());
         }

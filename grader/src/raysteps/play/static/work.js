@@ -126,7 +126,7 @@ export class Turn {
   }
 }
 
-const MOST_OF_A_SOURCE = 1 << 20; // bytes
+const MAX_SOURCE_BYTES = 1 << 20; // bytes
 
 /** The files of a zip, not packed or deflated, by their paths; large ones are left out. Throws where it is none. */
 export async function textsIn(zip) {
@@ -149,7 +149,7 @@ export async function textsIn(zip) {
     const name = decoder.decode(new Uint8Array(bytes, at + 46, lengths[0]));
     const local = view.getUint32(at + 42, true);
     const start = local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true);
-    if (size <= MOST_OF_A_SOURCE && packed <= MOST_OF_A_SOURCE) {
+    if (size <= MAX_SOURCE_BYTES && packed <= MAX_SOURCE_BYTES) {
       const data = new Blob([new Uint8Array(bytes, start, packed)]);
       const plain = packing ? data.stream().pipeThrough(new DecompressionStream("deflate-raw")) : data.stream();
       texts[name] = await new Response(plain).text();
