@@ -23,6 +23,7 @@ from raysteps.diagnosis.evidence import (
 from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, pair_score
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_known, write_known
 from raysteps.images.compare import Pixels
+from raysteps.judge.answers import plainly_wrong
 from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hits import NOTHING_FOUND
 from raysteps.judge.random_source import RandomSource
@@ -44,8 +45,12 @@ def _questions(function: str = "mirror") -> Questions:
     return Questions(known, cases, ["1 2 3"] * _AMOUNT)
 
 
-def _wrong(line: str, *numbers: int, problem: str = "the direction is wrong") -> dict[int, ObservedAnswers]:
-    return {number: ObservedAnswers(line, problem) for number in numbers}
+_PLAIN = plainly_wrong("the direction")
+
+
+def _wrong(line: str, *numbers: int, problem: str = _PLAIN) -> dict[int, ObservedAnswers]:
+    said = ObservedAnswers(line, problem, plainly_wrong=problem == _PLAIN)
+    return dict.fromkeys(numbers, said)
 
 
 def _score(mistake: Mapping[int, ObservedAnswers], mine: Mapping[int, ObservedAnswers]) -> float:
@@ -111,14 +116,16 @@ def test_how_many_times_too_large_numbers_are_does_not_hang_on_their_order() -> 
 def test_the_same_numbers_are_the_same_answer() -> None:
     questions = _questions()
     function, case = questions.function, questions.cases[0]
-    said = ObservedAnswers("4 5 6", "it is wrong")
-    assert answer_similarity(function, case, "1 2 3", said, said) == 1
-    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("4.0001 5 6", "it is wrong")) == 1
-    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("4 5 -6", "it is wrong")) > 0.6
-    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("-4 -5 -6", "it is wrong")) == 0.25, (
-        "only signs agree"
+    said, *others = (
+        ObservedAnswers(line, "it is wrong", plainly_wrong=True)
+        for line in ("4 5 6", "4.0001 5 6", "4 5 -6", "-4 -5 -6", "7 8 9")
     )
-    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("7 8 9", "it is wrong")) == 0.25
+    near, one_sign, all_signs, far = (answer_similarity(function, case, "1 2 3", said, other) for other in others)
+    assert answer_similarity(function, case, "1 2 3", said, said) == 1
+    assert near == 1
+    assert one_sign > 0.6
+    assert all_signs == 0.25, "only signs agree"
+    assert far == 0.25
     assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("7 8 9", "it is too long")) == 0
     telling = [ObservedAnswers(line, "it is too long") for line in ("4 5 6", "7 8 9")]
     assert 0.25 < answer_similarity(function, case, "1 2 3", *telling) < 0.5
@@ -232,7 +239,9 @@ def test_mistakes_that_cannot_be_told_apart_are_both_said() -> None:
 
 
 def test_noise_has_no_name() -> None:
-    mine = {number: ObservedAnswers(f"{number} {number + 1} 7", "the direction is wrong") for number in range(30)}
+    mine = {
+        number: ObservedAnswers(f"{number} {number + 1} 7", "it is wrong", plainly_wrong=True) for number in range(30)
+    }
     known = {_mutant("one"): {"mirror": _wrong("4 5 6", *range(30))}}
     assert not name_mistakes(_matched({"mirror": mine}, known))
 
@@ -299,7 +308,7 @@ def test_pictures_deny_what_a_yes_or_no_says_and_what_is_seen() -> None:
     for name, weak in (("is_lit", True), ("shadow_ray", False)):
         known = functions_of("04")[name]
         questions = Questions(known, [Case(name, "any", {})] * 30, ["1"] * 30)
-        said = {number: ObservedAnswers("0", "it is wrong") for number in range(30)}
+        said = _wrong("0", *range(30))
         for picture, sees in ((drawn, ""), (mine, "sees")):
             evidence = Evidence({name: questions}, {name: said}, {"lit": _picture(mine, reference)})
             fingerprint = MutantFingerprint({name: said}, {"lit": picture})
@@ -313,7 +322,7 @@ def test_a_right_picture_refutes_what_would_spoil_it_where_answers_are_yes_or_no
     reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
     spoilt = reference.copy()
     spoilt[:15] //= 2
-    said = {number: ObservedAnswers("0", "it is wrong") for number in range(30)}
+    said = _wrong("0", *range(30))
     for name, drawn, args, is_named in (
         ("is_lit", spoilt, (), False),
         ("is_lit", reference, (), True),
@@ -339,7 +348,7 @@ def test_a_picture_of_one_colour_has_no_name() -> None:
 def test_fingerprints_come_back_from_their_file(tmp_path: Path) -> None:
     answers = {
         "mirror": {
-            3: ObservedAnswers("1 2 3", "it is wrong", spread=(3, 1), times=(0.5,)),
+            3: ObservedAnswers("1 2 3", "it is wrong", spread=(3, 1), times=(0.5,), plainly_wrong=True),
             4: ObservedAnswers("", "", known=False),
         }
     }
@@ -369,4 +378,5 @@ def test_who_answers_as_a_known_mistake_has_its_problem(line: str) -> None:
     assert heard == {**judged["mirror"], **told}
     others = listen(questions, FakeWorker(lambda *_: "7 8 9"), 1.0, [{"mirror": told}])["mirror"]
     assert {one.problem for one in others.values()}.isdisjoint({"as the mistake"})
+    assert all(one.plainly_wrong for one in others.values())
     assert not listen(questions, FakeWorker(lambda *_: "1 2 3"), 1.0, [{"mirror": told}])["mirror"]

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from raysteps.course.manifest import ImageCase, Step
 from raysteps.images.compare import TOLERANCE, Pixels, gaps, is_flat
-from raysteps.judge.answers import Answer
+from raysteps.judge.answers import Answer, PlainlyWrong
 from raysteps.judge.bvhs import BVH
 from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.hidden_tests import make_cases, reference_lines
@@ -35,7 +35,8 @@ _LONGEST = 6000  # characters; of a longer answer its hash will do
 class ObservedAnswers:
     """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked. `boxes`: of a tree.
     `spread`: how many of the numbers drawn by chance fell into each bar, where that is the problem, and whether they go
-    round. `times`: how many times what they should be the numbers are, where they are drawn by chance or means."""
+    round. `times`: how many times what they should be the numbers are, where they are drawn by chance or means.
+    `plainly_wrong`: the problem does not tell how it is wrong."""
 
     line: str
     problem: str
@@ -44,6 +45,7 @@ class ObservedAnswers:
     spread: tuple[int, ...] = ()
     goes_round: bool = False
     times: tuple[float, ...] = ()
+    plainly_wrong: bool = False
 
 
 Answers: TypeAlias = Mapping[
@@ -102,7 +104,8 @@ def _said(
     spread = tuple(problem.histogram.counts) if isinstance(problem, Uneven) else ()
     goes_round = isinstance(problem, Uneven) and problem.goes_round
     times = problem.times if isinstance(problem, Off) else ()
-    return ObservedAnswers(line, str(problem), True, _boxes(function, reply.line), spread, goes_round, times)
+    boxes, plainly_wrong = _boxes(function, reply.line), isinstance(problem, PlainlyWrong)
+    return ObservedAnswers(line, str(problem), True, boxes, spread, goes_round, times, plainly_wrong)
 
 
 def _boxes(function: Function, line: str) -> int:
@@ -213,7 +216,6 @@ _RELATIVE = 2e-3
 _MAX_WORDS = 2000
 _WORDS_ONLY = 0.25  # of the weight of an answer with the same numbers
 _TELLING_WORDS = 0.45  # where they say how it is wrong, and not only that it is: too little to name a mistake by
-_THAT_IT_IS_WRONG = " is wrong"
 _SAME_WORDS_OF_CHANCE = 0.9  # of answers by chance: whoever turns a frame otherwise has other numbers for one mistake
 _TURNED = 0.8  # of the weight of the same number
 _MOSTLY = 0.6
@@ -341,4 +343,4 @@ def answer_similarity(
     agreement = _agreement(right, mistake.line, mine.line)
     if agreement >= _MOSTLY:
         return agreement
-    return _WORDS_ONLY if mine.problem.endswith(_THAT_IT_IS_WRONG) else _TELLING_WORDS
+    return _WORDS_ONLY if mine.plainly_wrong else _TELLING_WORDS

@@ -13,6 +13,17 @@ from raysteps.judge.protocol import Frame, Inputs, ProtocolError, Ray, TokenRead
 T = TypeVar("T")
 
 
+class PlainlyWrong(str):
+    """A problem that tells that something is wrong, and not how."""
+
+    __slots__ = ()
+
+
+def plainly_wrong(what: str) -> PlainlyWrong:
+    """In words."""
+    return PlainlyWrong(f"{what} is wrong")
+
+
 class TooMuchWork(str):
     """A problem of an answer that is right, but spares no work."""
 
@@ -142,7 +153,7 @@ def no_number(what: str, *numbers: float) -> str:
 
 def _no_number_said(problem: str, right_line: str, line: str) -> str:
     """The same of a whole answer, where the right one holds no such number and the problem does not tell."""
-    if type(problem) is not str or "NaN" in problem or "infinite" in problem:
+    if type(problem) not in (str, PlainlyWrong) or "NaN" in problem or "infinite" in problem:
         return ""
     if not any(odd in line for odd in _NONE):  # long lines have many words
         return ""
@@ -231,7 +242,7 @@ def real(what: str, expected: float, actual: float, tolerance: Tolerance = SMALL
         return ""
     if expected == actual or abs(expected - actual) <= tolerance.of(expected) < math.inf:
         return ""
-    return no_number(what, actual) or f"{what} is wrong"
+    return no_number(what, actual) or plainly_wrong(what)
 
 
 def vector(what: str, expected: Vector, actual: Vector, tolerance: Tolerance = SMALL) -> str:
@@ -239,7 +250,7 @@ def vector(what: str, expected: Vector, actual: Vector, tolerance: Tolerance = S
     gap = length(minus(expected, actual))
     if gap <= tolerance.of(length(expected)) < math.inf:
         return ""
-    return no_number(what, *actual) or f"{what} is wrong"
+    return no_number(what, *actual) or plainly_wrong(what)
 
 
 def channels(what: str, expected: Vector, actual: Vector, tolerance: Tolerance = COLORS) -> str:
@@ -284,7 +295,7 @@ def direction(what: str, expected: Vector, actual: Vector, degrees: float = _DEG
         if odd:
             return odd
         opposite = length(actual) > 0 and angle(expected, (-actual[0], -actual[1], -actual[2])) <= degrees
-        return f"{what} points the other way" if opposite else f"{what} is wrong"
+        return f"{what} points the other way" if opposite else plainly_wrong(what)
     return wrong_length
 
 

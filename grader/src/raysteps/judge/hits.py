@@ -12,6 +12,7 @@ from raysteps.judge.answers import (
     direction,
     first,
     off_surface,
+    plainly_wrong,
     read_ray,
     real,
     share_right,
@@ -59,13 +60,13 @@ def hit_or_miss(expected: MaybeHit, actual: MaybeHit) -> str:
 
 def _fill(expected: Fill, actual: Fill) -> str:
     pairs = zip(expected.numbers()[3:], actual.numbers()[3:], strict=True)
-    wrong = [real("fill", a, b) for a, b in pairs]
-    return first(channels("the fill's colour", expected.color, actual.color, SMALL), *wrong)
+    numbers = [real("fill", a, b) for a, b in pairs]
+    return first(channels("the fill's colour", expected.color, actual.color, SMALL), *numbers)
 
 
 def _record_problems(expected: Hit, actual: Hit) -> tuple[str, ...]:
     """Of all that a record holds, the distance first."""
-    sides = "" if expected.front_face == actual.front_face else "front_face is wrong"
+    sides = "" if expected.front_face == actual.front_face else plainly_wrong("front_face")
     normal = direction("the normal", expected.normal, actual.normal)
     if abs(dot(expected.normal, expected.ray_direction)) < _ALONG:  # the ray comes from neither side
         sides, normal = "", normal and direction("the normal", times(-1.0, expected.normal), actual.normal)
@@ -75,7 +76,7 @@ def _record_problems(expected: Hit, actual: Hit) -> tuple[str, ...]:
         normal,
         sides,
         vector("ray_direction", expected.ray_direction, actual.ray_direction),
-        "the fill is wrong" if _fill(expected.fill, actual.fill) else "",
+        plainly_wrong("the fill") if _fill(expected.fill, actual.fill) else "",
     )
 
 

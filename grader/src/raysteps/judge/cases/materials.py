@@ -7,7 +7,17 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.common.vectors import Vector, cross, dot, minus, times, unit
-from raysteps.judge.answers import Answer, Tolerance, channels, direction, first, number_answer, real, share_beyond
+from raysteps.judge.answers import (
+    Answer,
+    Tolerance,
+    channels,
+    direction,
+    first,
+    number_answer,
+    plainly_wrong,
+    real,
+    share_beyond,
+)
 from raysteps.judge.cases.microfacets import dielectric, rough_problem, smith_lambda, units, visible_problem
 from raysteps.judge.draws import (
     Samples,
@@ -486,7 +496,7 @@ def _of_smooth(nothing: int) -> str:
 def _astray(is_mirrored: Mask, normals: Numbers) -> str:
     """Of smooth glass: which of the two ways is not the one of its law."""
     astray = normals[:, 2] <= 1 - 2e-4
-    return f"the {'mirrored' if (astray & is_mirrored).any() else 'refracted'} direction is wrong"
+    return plainly_wrong(f"the {'mirrored' if (astray & is_mirrored).any() else 'refracted'} direction")
 
 
 def _odds_problem(is_mirrored: Mask, shares: Numbers, view: Numbers, normals: Numbers, nothing: int) -> str:

@@ -12,6 +12,7 @@ from raysteps.judge.answers import (
     first,
     itself,
     number_answer,
+    plainly_wrong,
     read_vector,
     read_whole,
     real,
@@ -398,7 +399,7 @@ def _words_of_levels(found: _Levels) -> str:
 
 def _levels_problem(_inputs: Inputs, expected: _Levels, actual: _Levels) -> str:
     if len(actual.levels) != len(expected.levels):
-        return "the number of levels is wrong"
+        return plainly_wrong("the number of levels")
     for right, found in zip(expected.levels, actual.levels, strict=True):
         if (right.width, right.height) != (found.width, found.height):
             return "a level has the wrong size"

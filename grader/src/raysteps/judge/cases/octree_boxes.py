@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from raysteps.common.vectors import Vector, add, unit
-from raysteps.judge.answers import LENGTHS, SMALL, Answer, first, real, vector
+from raysteps.judge.answers import LENGTHS, SMALL, Answer, first, plainly_wrong, real, vector
 from raysteps.judge.cases.tree_cases import small_scene
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Box, Inputs, ProtocolError, Ray, TokenReader, rounded
@@ -60,7 +60,7 @@ def _bounds_problem(_inputs: Inputs, expected: Box, actual: Box) -> str:
 def _parts_problem(_inputs: Inputs, expected: tuple[Box, ...], actual: tuple[Box, ...]) -> str:
     for i, (mine, theirs) in enumerate(zip(expected, actual, strict=True)):
         if vector("", mine.low, theirs.low) or vector("", mine.high, theirs.high):
-            return f"part {i} is wrong"
+            return plainly_wrong(f"part {i}")
     return ""
 
 

@@ -16,6 +16,7 @@ from raysteps.judge.answers import (
     first,
     itself,
     number_answer,
+    plainly_wrong,
     share_beyond,
 )
 from raysteps.judge.draws import (
@@ -414,7 +415,7 @@ def _light_problem(of_many: ManyProblem, inputs: Inputs, expected: _Light, actua
     astray = not counts and _is_astray(inputs, expected.cast, actual.cast)
     return first(
         counts,
-        "a ray that was cast is wrong" if astray else "",
+        plainly_wrong("a ray that was cast") if astray else "",
         channels("the light", expected.color, actual.color, Tolerance(1e-4, 5e-4)),
     )
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from raysteps.common.vectors import Vector, add, dot, length, minus, times
-from raysteps.judge.answers import Answer, angle, channels, first
+from raysteps.judge.answers import Answer, angle, channels, first, plainly_wrong
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import REFLECTED_RAY
 from raysteps.judge.protocol import Hit, Inputs, Ray, Whole, rounded
@@ -51,7 +51,7 @@ def _trace_problems(inputs: Inputs, expected: TracedCall, actual: TracedCall) ->
     shaded = sorted(expected.shaded) == sorted(actual.shaded)
     return (
         counts,
-        "a ray that was cast is wrong" if astray else "",
+        plainly_wrong("a ray that was cast") if astray else "",
         channels("the colour", expected.color, actual.color),
         "" if shaded else "direct_lighting was asked for other hits, or with another depth",
     )

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from raysteps.common.vectors import Vector, dot, length, minus, times
-from raysteps.judge.answers import Answer, channels, direction, first
+from raysteps.judge.answers import Answer, channels, direction, first, plainly_wrong
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import TRANSMITTED_RAY, hit_of
 from raysteps.judge.protocol import (
@@ -212,7 +212,7 @@ def _traced_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str
     problems = [
         first(
             _same_way(hit, mine[0], theirs[0]),
-            "" if mine[1] == theirs[1] else "the depth of the traced ray is wrong",
+            "" if mine[1] == theirs[1] else plainly_wrong("the depth of the traced ray"),
         )
         for mine, theirs in zip(expected.traced, actual.traced, strict=True)
     ]

@@ -8,6 +8,7 @@ from raysteps.judge.answers import (
     Tolerance,
     channels,
     itself,
+    plainly_wrong,
     read_vector,
     read_whole,
     words_of_number,
@@ -22,7 +23,7 @@ _COLOR = Answer(read_vector, words_of_vector, lambda _, e, a: channels("the colo
 
 
 def _byte_problem(_inputs: Inputs, expected: int, actual: int) -> str:
-    return "" if expected == actual else "the byte is wrong"
+    return "" if expected == actual else plainly_wrong("the byte")
 
 
 def _one_of(draw: RandomSource, odd: tuple[float, ...]) -> Vector:
