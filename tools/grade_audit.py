@@ -1,6 +1,5 @@
 """The command `dev check`: stubs, references, mistakes and alternatives are graded, and the grades are judged."""
 
-import os
 import random
 import shutil
 import tempfile
@@ -13,6 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step, choose
 from raysteps.course.mutants import read_mutants
 from raysteps.course.project import Project
@@ -311,7 +311,7 @@ def _graded(
         say(f"{what} {number} of {len(rounds)}")
         return grade_round(kit, handed_in, sandbox, seed=seed, only=only)
 
-    with ThreadPoolExecutor((os.cpu_count() or 1) + 1) as pool:
+    with ThreadPoolExecutor(processor_count() + 1) as pool:
         return list(pool.map(grade, enumerate(rounds, start=1)))
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_bytes
+from raysteps.common.platform import is_windows_device
 from raysteps.common.text import count
 from raysteps.course.manifest import Step, kit_steps, read_all_steps, read_step
 from raysteps.course.project import Project
@@ -20,7 +21,6 @@ from tools.test_submissions import write_samples
 
 _NAME = re.compile(r"([0-9]{2})-([a-z]+(?:-[a-z]+)*)")
 _LONGEST = 40
-_NO_FILES_ON_WINDOWS = {"con", "prn", "aux", "nul"}
 
 
 # Those that new steps of a part may have: the framework draws pictures of steps 10 to 19 as part two does.
@@ -36,7 +36,7 @@ def check_name(project: Project, name: str, part: int) -> None:
             f"{_LONGEST} characters, such as 20-fog"
         )
     number, words = found.groups()
-    if words in _NO_FILES_ON_WINDOWS:
+    if is_windows_device(words):
         raise UsageError(f"'{name}': Windows has no files called {words}; choose another name")
     steps = read_all_steps(project)
     numbers = _NUMBERS[part]

@@ -21,7 +21,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.platform import refuse_on_windows
+from raysteps.common.platform import processor_count, refuse_on_windows
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
@@ -81,7 +81,7 @@ def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         _must(["cmake", "-S", root, "-B", build, *generator], root)
         tests = [f"test-isolated-{step.number}" for step in steps]
-        at_once = str(os.cpu_count() or 1)
+        at_once = str(processor_count())
         _must(["cmake", "--build", build, "--parallel", at_once, "--target", "raytrace-mine", *tests], root)
         _must(["ctest", "--test-dir", build, "--output-on-failure", "-R", f"^({'|'.join(tests)})$"], root)
         for step in steps:
@@ -97,7 +97,7 @@ def _class_of(project: Project, folder: Path, size: int) -> Path:
 
 
 def _class_way(project: Project, submissions: Path, out: Path, *only: str) -> None:
-    jobs = str(os.cpu_count() or 1)
+    jobs = str(processor_count())
     words: list[str | Path] = [sys.executable, "-P", "-m", "raysteps", "grade-class", submissions, "--out", out]
     _must([*words, "--jobs", jobs, *(["--only", *only] if only else [])], project.root)
 
@@ -307,7 +307,7 @@ def bench_waits(project: Project, options: WaitsOptions, console: Console) -> in
         one = kit.samples / "complete"
         rows.append(typed.row("grade, all steps", options.rounds, "grade", one, "--out", folder / "one"))
         submissions = _class_of(kit, folder / "class", options.submissions)
-        words = ("grade-class", submissions, "--out", folder / "grades", "--jobs", str(os.cpu_count() or 1))
+        words = ("grade-class", submissions, "--out", folder / "grades", "--jobs", str(processor_count()))
         rows.append(typed.row(f"grade-class, {options.submissions} submissions", 1, *words))
         found = machine(release_tree(kit).folder)
     table = terminal_table("how long a person waits, in seconds", ("way", "least", "median", "of processors"))

@@ -1,7 +1,6 @@
 """The commands `bench boxes` and `bench threads`: whole pictures, by what raytrace says of them with --stats."""
 
 import json
-import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.platform import processor_count
 from raysteps.course.project import Project, generated
 from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
@@ -59,7 +59,7 @@ def thread_counts(cores: int) -> list[int]:
 
 def _in_turns(programs: Programs, scene: Path, accel: str, options: ThreadsOptions) -> list[ThreadsRow]:
     """All counts in turns; the first round warms up."""
-    counts, size = thread_counts(os.cpu_count() or 1), f"{options.size}x{options.size}"
+    counts, size = thread_counts(processor_count()), f"{options.size}x{options.size}"
     times: dict[int, list[tuple[float, float]]] = {count: [] for count in counts}
     for number in range(options.rounds + 1):
         for count in counts:

@@ -1,7 +1,6 @@
 """The command `dev calibrate`."""
 
 import math
-import os
 import re
 import tempfile
 import time
@@ -19,6 +18,7 @@ from rich.table import Table
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
+from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step, choose
 from raysteps.course.project import Project
 from raysteps.grading.pipeline import grade_submission
@@ -109,7 +109,7 @@ def marks(
         one_more()
         return found
 
-    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+    with ThreadPoolExecutor(processor_count()) as pool:
         found = list(pool.map(one, work))
     console.print(_table(found, time.monotonic() - start))
     short = [one for one in found if not one.is_full]
@@ -301,7 +301,7 @@ def _measured(
 ) -> list[CalibratedPicture]:
     found: list[CalibratedPicture] = []
     for step in choose(kit.steps, list(only)):
-        found += calibrate_step(kit, step, settings, os.cpu_count() or 1, say)
+        found += calibrate_step(kit, step, settings, processor_count(), say)
     return found
 
 

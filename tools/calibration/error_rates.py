@@ -18,6 +18,7 @@ from rich.table import Table
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_if_changed
+from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.mutants import reference_source, replaced_once
 from raysteps.course.project import Project
@@ -233,7 +234,7 @@ def measure(
             def one(pair: tuple[_Files, StepRates], seed: int = seed, planted: bool = planted) -> None:
                 grade_seed(pair[0], kit, seed, pair[1], planted=planted)
 
-            with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            with ThreadPoolExecutor(processor_count()) as pool:
                 list(pool.map(one, zip(files, all_rates, strict=True)))
             seed += 1
             yield all_rates

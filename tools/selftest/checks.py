@@ -1,6 +1,5 @@
 """What a check of the kit reports, and the table of all of them."""
 
-import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -12,6 +11,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from raysteps.common.platform import processor_count
 from tools.selftest.stamps import Belongs, Stamps
 
 Verdict = Literal["passed", "failed", "skipped"]
@@ -65,7 +65,7 @@ def _all_done(checks: Sequence[Check], console: Console, stamps: Stamps) -> Iter
     """In their order."""
     for beside, group in groupby(checks, lambda check: check.beside):
         some = list(group)
-        with ThreadPoolExecutor((os.cpu_count() or 1) if beside else 1) as pool:
+        with ThreadPoolExecutor(processor_count() if beside else 1) as pool:
             waiting = [pool.submit(_done, check, stamps) for check in some]
             try:
                 for check, future in zip(some, waiting, strict=True):

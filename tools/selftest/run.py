@@ -2,7 +2,6 @@
 
 import argparse
 import json
-import os
 import re
 import sys
 import tempfile
@@ -12,6 +11,7 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.common import process
+from raysteps.common.platform import processor_count
 from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs
@@ -120,7 +120,7 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
     changed = [place for place in names if not all(stamps.has_passed(name, digests[name]) for name in names[place])]
     if not changed:
         return Report("passed", UNCHANGED)
-    spread = ["-n", str(2 * (os.cpu_count() or 1))]  # twice as many as processors: tests mostly wait for programs
+    spread = ["-n", str(2 * processor_count())]  # twice as many as processors: tests mostly wait for programs
     spread += ["--dist", "loadgroup", "--no-loadscope-reorder"]  # groups make something costly once; slow ones first
     files = {place: place.removeprefix("grader/") for place in changed}
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:

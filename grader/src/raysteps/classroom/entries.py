@@ -14,6 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.platform import is_windows_device
 from raysteps.common.text import one_line, printable
 from raysteps.course.manifest import Step
 from raysteps.submission.entries import is_out_of_sight
@@ -203,7 +204,6 @@ def load_entry(name: str, entry: Entry, steps: list[Step]) -> LoadedEntry:
 # Names of submissions: what they tell, and how they become safe as names of files on any system.
 
 _MAX_BYTES = 100
-_DEVICES = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
 # Only the beginning is the platform's; what comes after it may be a file name that a student chose.
 _CANVAS = re.compile(r"([^\W_]+)_(?:LATE_)?([0-9]+)_([0-9]+)_")  # leeann_4711_815_steps
 _MOODLE = re.compile(r"(.+?)_([0-9]+)_assignsubmission_")  # Ann Lee_123_assignsubmission_file
@@ -247,7 +247,7 @@ def safe_name(text: str) -> str:
     plain = unicodedata.normalize("NFKC", text)
     name = "".join(letter if letter.isalnum() or letter in "._-" else "_" for letter in plain).strip("._-")
     name = name.encode()[:_MAX_BYTES].decode("utf-8", "ignore").rstrip(".")
-    return f"_{name}" if not name or _DEVICES.fullmatch(name) else name
+    return f"_{name}" if not name or is_windows_device(name) else name
 
 
 def name_entries(entries: Sequence[str], known: Mapping[str, str]) -> dict[str, str]:

@@ -13,7 +13,7 @@ from rich.console import Console
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import one_at_a_time
-from raysteps.common.platform import kit_command
+from raysteps.common.platform import kit_command, processor_count
 from raysteps.common.text import join_some
 from raysteps.course.manifest import STEPS_HELP, chosen_steps, read_steps
 from raysteps.course.project import Project
@@ -129,7 +129,7 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
             kit = build_kit(project, say)
             replaces = (out / "results.json").exists() and bool(options.settings.only)
             clear(out, kit.steps, kit.steps)
-            jobs = options.jobs or os.cpu_count() or 1
+            jobs = options.jobs or processor_count()
             results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs, course=course)
             told = withhold(results, options.settings.feedback)  # the terminal may be the student's, too
             page = try_student_page(out, kit.steps, say)  # which may be handed back: no paths of this machine

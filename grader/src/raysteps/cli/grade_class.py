@@ -1,7 +1,6 @@
 """The command `grade-class`."""
 
 import argparse
-import os
 import shlex
 from collections.abc import Collection, Iterator
 from contextlib import closing, contextmanager
@@ -22,7 +21,7 @@ from raysteps.classroom.session import Runner, Session, terminated_as_interrupte
 from raysteps.classroom.summary import ProgressMeter, print_summary
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import try_lock, usable_folder, wait_for_lock
-from raysteps.common.platform import refuse_on_windows
+from raysteps.common.platform import processor_count, refuse_on_windows
 from raysteps.course.manifest import STEPS_HELP
 from raysteps.course.project import Project
 from raysteps.course.settings import Course, read_course
@@ -96,7 +95,7 @@ def read_options(arguments: argparse.Namespace, grader: str, course: Course = _N
         raise UsageError("--jobs is for this machine; with --scheduler the workers say how much they do at a time")
     jobs = arguments.jobs
     if jobs is None:
-        jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        jobs = processor_count()
     if not 1 <= jobs <= 1024:
         raise UsageError(f"--jobs {jobs}: expected a number from 1 to 1024")
     return ClassOptions(

@@ -1,7 +1,6 @@
 """Documents whose form is that of a dataclass: what does not fit is refused, with the place where it does not."""
 
 import codecs
-import json
 import re
 import tomllib
 from collections.abc import Collection, Iterable, Iterator, Sequence
@@ -13,6 +12,7 @@ import msgspec
 from msgspec import Meta
 
 from raysteps.common.errors import GraderFault, UsageError, reason
+from raysteps.common.files import readable_json
 from raysteps.common.text import shorten
 
 T = TypeVar("T")
@@ -126,7 +126,7 @@ def checked(document: T, name: str) -> T:
 
 def as_text(document: object) -> str:
     """The document as it is written to a file."""
-    return json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return readable_json(plain(document))
 
 
 # TOML that people write: where in it something is wrong.

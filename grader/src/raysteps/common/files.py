@@ -130,9 +130,14 @@ def forget_unfinished(folder: Path) -> None:
             path.unlink(missing_ok=True)
 
 
+def readable_json(value: object, indent: int = 2) -> str:
+    """Line by line, as all files of JSON are that people may read."""
+    return json.dumps(value, indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
+
+
 def write_json(path: Path, value: object) -> None:
     """Writes readable JSON."""
-    write_bytes(path, (json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode())
+    write_bytes(path, readable_json(value).encode())
 
 
 def write_out(path: Path, data: bytes) -> None:
@@ -145,7 +150,7 @@ def write_out(path: Path, data: bytes) -> None:
 
 def encoded(document: object) -> bytes:
     """JSON for other programs, as it is written."""
-    return (json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    return readable_json(document, indent=1).encode()
 
 
 def write_if_changed(path: Path, data: bytes) -> bool:

@@ -1,5 +1,7 @@
 """What differs between systems and is needed in many places."""
 
+import os
+import re
 import shlex
 import sys
 from collections.abc import Sequence
@@ -7,10 +9,22 @@ from pathlib import Path
 
 from raysteps.common.errors import UsageError
 
+_DEVICE = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?", re.IGNORECASE)
+
 
 def is_windows() -> bool:
     """A function, so that a type checker looks at both ways whatever system it runs on."""
     return sys.platform == "win32"
+
+
+def is_windows_device(name: str) -> bool:
+    """Whether Windows has no files of that name, whatever its ending."""
+    return _DEVICE.fullmatch(name) is not None
+
+
+def processor_count() -> int:
+    """How many this process may use: fewer than there are where it is tied to some, as by `taskset`."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def executable(path: Path) -> Path:

@@ -1,14 +1,13 @@
 """results.json of a PrairieLearn external grader, and the question that is graded by it."""
 
 import html
-import json
 import uuid
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import encoded
+from raysteps.common.files import encoded, readable_json
 from raysteps.common.text import clean, count, number, tenths
 from raysteps.course.manifest import Step
 from raysteps.exports.formats import Album, Paste
@@ -59,7 +58,7 @@ def question_info(steps: Sequence[Step], chosen: Sequence[str], image: str) -> b
             "timeout": SECONDS,
         },
     }
-    return (json.dumps(info, indent=2, ensure_ascii=False) + "\n").encode()
+    return readable_json(info).encode()
 
 
 def question_page(steps: Sequence[Step]) -> bytes:

@@ -1,6 +1,5 @@
 """Checks steps in a students' kit: visible tests and pictures, with the student's own steps before each."""
 
-import os
 import sys
 import tempfile
 import time
@@ -11,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from raysteps.common.errors import RaystepsError
+from raysteps.common.platform import processor_count
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, earlier
 from raysteps.grading.images import judge
@@ -120,7 +120,7 @@ def name_crash(
         counted = AccountingSandbox(sandbox)
         work = GradingContext(kit.sanitized(), submission, counted, Path(folder), Path(folder))
         sources = [*([] if alone else earlier(step, kit.steps)), step]
-        with ThreadPoolExecutor(os.cpu_count()) as pool, counted.until_interrupted():
+        with ThreadPoolExecutor(processor_count()) as pool, counted.until_interrupted():
             compiled = compile_steps(work, sources, pool, {})
         binary = compiled[step.id].binary
         if binary is not None:

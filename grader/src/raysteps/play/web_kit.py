@@ -17,6 +17,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_bytes
+from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step, course_steps, read_all_steps
 from raysteps.course.project import Project
 from raysteps.play.packages import CATCH2, fetch_header, written_once
@@ -51,7 +52,7 @@ _HEADERS = {
     "stb_image_write.h": ("stb_image_write.h", "stb/stb_image_write.h"),
 }
 _USUAL_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include")
-MAX_AT_ONCE = min(4, os.cpu_count() or 1)  # each takes some 300 MB
+MAX_AT_ONCE = min(4, processor_count())  # each takes some 300 MB
 # What many sources include is read once, in a quarter of the time, as by cmake/precompiled.cmake. What a student writes
 # is compiled as if there were none.
 _COMMON = "algorithm cmath filesystem functional map memory optional sstream string variant vector core/scene.hpp"

@@ -3,7 +3,6 @@ what grades, which takes a third of a second."""
 
 from __future__ import annotations
 
-import os
 import tempfile
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raysteps.common.files import one_at_a_time, usable_folder
+from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import begun_source
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 def _compiled_ahead(kit: BuiltKit, submission: Submission, chosen: list[Step], ends: ExitStack) -> CompiledAhead:
     """Starts the compiler for the chosen steps that were begun."""
     folder = ends.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True))
-    pool = ends.enter_context(ThreadPoolExecutor(os.cpu_count()))
+    pool = ends.enter_context(ThreadPoolExecutor(processor_count()))
     ends.callback(pool.shutdown, wait=False, cancel_futures=True)
     sandbox = AccountingSandbox(LimitsOnly())
     ends.enter_context(sandbox.until_interrupted())

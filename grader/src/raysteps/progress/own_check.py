@@ -1,6 +1,5 @@
 """Grades a student's own steps and keeps what came of it in build/check: one report, whatever was checked last."""
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -8,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
+from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.self_check import name_crash, self_check
@@ -47,7 +47,7 @@ def _look_through(
     *,
     draws_large: bool,
 ) -> Results:
-    jobs = os.cpu_count() or 1
+    jobs = processor_count()
     if not kit.has_reference:
         heard = tell if draws_large else None
         return self_check(kit, submission, chosen, jobs, LimitsOnly(), out, say, heard, ahead)

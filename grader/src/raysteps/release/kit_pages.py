@@ -10,6 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.files import readable_json
 from raysteps.common.markdown import targets, unlinked
 from raysteps.common.text import join_and, number
 from raysteps.course.manifest import Step, steps_words
@@ -66,7 +67,7 @@ def for_editor(text: bytes, steps: list[Step]) -> bytes:
         table["tasks"] = [task for task in table["tasks"] if task.get("args") != ["test"]]
     for asked in (one for one in table.get("inputs", []) if one["id"] == "step"):
         asked["options"], asked["default"] = [step.number for step in steps], steps[0].number
-    return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
+    return readable_json(table).encode()
 
 
 def pyproject(text: str) -> bytes:

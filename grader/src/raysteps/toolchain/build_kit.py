@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_json
-from raysteps.common.platform import executable
+from raysteps.common.platform import executable, processor_count
 from raysteps.course.manifest import Step, course_manifests, kit_steps, read_all_steps, read_steps, up_to
 from raysteps.course.project import Project
 from raysteps.course.stubs import included, pristine_stub
@@ -97,7 +97,7 @@ _FOLDERS = ("answers", "bin", "include", "parts", "pictures", "placeholders", "p
 
 
 def _several_at_a_time(work: Callable[[T], U], items: Iterable[T]) -> list[U]:
-    with ThreadPoolExecutor(min(_COMPILERS, os.cpu_count() or 1)) as pool:
+    with ThreadPoolExecutor(min(_COMPILERS, processor_count())) as pool:
         return list(pool.map(work, items))
 
 

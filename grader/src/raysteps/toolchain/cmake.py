@@ -10,7 +10,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import one_at_a_time
-from raysteps.common.platform import executable
+from raysteps.common.platform import executable, processor_count
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.course.project import Project
@@ -106,7 +106,7 @@ class BuildTree:
         cached = f"CCACHE_BASEDIR={self.project.root.as_posix()}"  # for whoever uses ccache: copies of the kit share it
         command: list[str | Path] = ["cmake", "-E", "env", cached, "cmake", "--build", self.folder]
         if "CMAKE_BUILD_PARALLEL_LEVEL" not in os.environ:
-            command += ["--parallel", str(os.cpu_count() or 1)]  # make would start all at once without a number
+            command += ["--parallel", str(processor_count())]  # make would start all at once without a number
         if targets:
             command += ["--target", *targets]
         return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root, heard=_HowFar(say).heard)

@@ -15,7 +15,8 @@ from msgspec import Meta
 from raysteps import __version__
 from raysteps.common.documents import OPTIONAL, Malformed, Text, convert
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.files import content_hash
+from raysteps.common.files import content_hash, readable_json
+from raysteps.common.platform import is_windows_device
 
 # What setting up and trying a kit makes in its folder: no part of a release, and none of a student's own files.
 
@@ -55,7 +56,6 @@ def all_places(folder: Path, unreadable: Callable[[OSError], None] | None = None
 # Which paths a list of files may hold: each leads to a place of its own, inside the folder, on every system.
 
 _PART = re.compile(r"[A-Za-z0-9._+-]*[A-Za-z0-9_+-]")  # Windows drops a dot at the end; `.` and `..` are no names
-_DEVICE = re.compile(r"(?:con|prn|aux|nul|com[0-9]|lpt[0-9])(?:\..*)?", re.IGNORECASE)
 _ALLOWED = "expected names of letters, digits and . _ + - only, with / between them"
 
 
@@ -66,7 +66,7 @@ def _folders(path: str) -> Iterator[str]:
 
 def _complaint(path: str) -> str:
     parts = path.split("/")
-    if not all(_PART.fullmatch(part) and not _DEVICE.fullmatch(part) for part in parts):
+    if not all(_PART.fullmatch(part) and not is_windows_device(part) for part in parts):
         return f"which is no name that every system can have; {_ALLOWED}"
     if ".git" in (part.lower() for part in parts) or parts[0].lower() in FOLDERS:
         return "which is never a file of the kit"
@@ -140,7 +140,7 @@ def encoded(release: Release) -> bytes:
     wrong = path_problem(file.path for file in release.files)
     if wrong:
         raise UsageError(f"the release {wrong}. Give the file another name")
-    return (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode()
+    return readable_json(document, indent=1).encode()
 
 
 def parse(data: bytes, where: str) -> Release:
