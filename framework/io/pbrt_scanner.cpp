@@ -194,6 +194,22 @@ int PbrtParameters::whole(std::string_view name, int otherwise, int lowest, int 
     return static_cast<int>(number);
 }
 
+float PbrtParameters::share(std::string_view name, float otherwise) const {
+    const float found = number(name, otherwise);
+    if (!(found >= 0.0F && found <= 1.0F)) {
+        scanner_.fail(directive_, in_backquotes(name) + " from 0 to 1", "another one");
+    }
+    return found;
+}
+
+float PbrtParameters::amount(std::string_view name, float otherwise) const {
+    const float found = number(name, otherwise);
+    if (!(found >= 0.0F)) {
+        scanner_.fail(directive_, in_backquotes(name) + " of 0 or more", "another one");
+    }
+    return found;
+}
+
 std::optional<Color> PbrtParameters::color(std::string_view name) const {
     const PbrtParameter* found = find(name);
     if (found == nullptr) {

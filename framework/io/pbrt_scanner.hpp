@@ -68,6 +68,8 @@ public:
     [[nodiscard]] const Token& directive() const { return directive_; }
 
     [[nodiscard]] float number(std::string_view name, float otherwise) const;
+    [[nodiscard]] float share(std::string_view name, float otherwise) const;   ///< from 0 to 1
+    [[nodiscard]] float amount(std::string_view name, float otherwise) const;  ///< 0 or more
     [[nodiscard]] int whole(std::string_view name, int otherwise, int lowest, int highest) const;
     [[nodiscard]] std::optional<Color> color(std::string_view name) const;  ///< 0 or more
     [[nodiscard]] glm::vec3 point(std::string_view name, const glm::vec3& otherwise) const;
