@@ -46,6 +46,12 @@ function(raysteps_add_step step variant source)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options(${raw} PRIVATE -fno-gnu-unique)  # unique symbols are shared whatever a seal says
     endif()
+    if(variant STREQUAL "mine" AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT MSVC)
+        # A stub says where it stands: as seen from the kit, where a student is, and not from the folder of the build.
+        file(RELATIVE_PATH up "${CMAKE_BINARY_DIR}" "${PROJECT_SOURCE_DIR}")
+        string(REGEX REPLACE "/$" "" up "${up}")
+        target_compile_options(${raw} PRIVATE "-fmacro-prefix-map=${up}/=" "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
+    endif()
     if(variant STREQUAL "stub")
         set_target_properties(${raw} PROPERTIES POSITION_INDEPENDENT_CODE ON)  # becomes a library, as a student's does
     endif()
