@@ -3,12 +3,15 @@
 from pathlib import Path
 
 import pytest
-from course_fakes import small_project, write_own
+from course_fakes import small_project, write_own, written_course
 
-from raysteps.cli.render import why_own_steps_do_not_build
+from raysteps.cli.render import build_mine, why_own_steps_do_not_build
+from raysteps.common.errors import StudentBuildError
 from raysteps.common.process import Outcome
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.grading.build_messages import calls_what_it_may_not
+from raysteps.toolchain.cmake import BuildTree, release_tree
 
 _OWN = "../../steps/03-phong-shading/phong_shading.cpp"
 _NINJA = f"""[1/7] Building CXX object framework/CMakeFiles/kit.dir/core/box.cpp.o
@@ -55,6 +58,69 @@ def test_a_helper_that_is_defined_nowhere_is_of_the_step_that_calls_it(course: P
     assert _told(course, f"FAILED: bin/raytrace-mine\n{called}").startswith(
         "step 03 does not build: raysteps::helper(int) is called, but defined nowhere."
     )
+
+
+def test_a_helper_that_is_defined_nowhere_is_shown_where_it_is_called(course: Project, steps: list[Step]) -> None:
+    """Also where the linker names no file, and in the words of the header."""
+    write_own(
+        course, steps[2], "float helper(const HitRecord& hit);\nColor shade() { return helper(hit) * k_white; }\n"
+    )
+    said = "ld: (.text+0x9): undefined reference to `raysteps::helper(raysteps::HitRecord const&)'\n"
+    assert _told(course, f"FAILED: bin/raytrace-mine\n{said}") == (
+        "step 03 does not build: phong_shading.cpp:2:24: raysteps::helper(const raysteps::HitRecord&) is called, but "
+        "defined nowhere. Is the signature the same in both places?\n"
+        "    1 | float helper(const HitRecord& hit);\n"
+        "    2 | Color shade() { return helper(hit) * k_white; }\n      |                        ^"
+    )
+
+
+def test_what_is_there_in_place_of_a_function_that_is_gone_is_asked_about(course: Project, steps: list[Step]) -> None:
+    write_own(course, steps[2], "Color Shade(int x) { return k_black; }\n")
+    said = "FAILED: bin/raytrace-mine\nld: trace.cpp: undefined reference to `raysteps::shade(int)'\n"
+    assert _told(course, said).endswith(
+        "The file has Shade: is that meant to be shade? Upper and lower case differ, too."
+    )
+
+
+def test_a_method_that_is_gone_is_of_the_step_whose_it_is(course: Project, steps: list[Step]) -> None:
+    write_own(course, steps[1], "int one;\n")
+    said = "FAILED: x\nld: a.cpp: undefined reference to `raysteps::Sphere::intersect(raysteps::Ray const&) const'\n"
+    assert _told(course, said).startswith("step 02 does not build: Sphere::intersect(const Ray&) const is missing.")
+
+
+_LATER = '#include "steps/05-reflection/reflection.hpp"\n'
+
+
+@pytest.mark.parametrize(
+    ("step", "source", "said"),
+    [
+        (4, f"{_LATER}Ray f() {{ return reflected_ray(hit); }}\n", "it calls a function of step 05-reflection, which"),
+        (4, f"{_LATER}Ray reflected_ray(int) {{}}\nRay f() {{ return reflected_ray(1); }}\n", ""),
+        (4, "Ray reflected_ray(int);\nRay f() { return reflected_ray(hit); }\n", ""),
+        (9, "auto f() { return build_octree(scene); }\n", "step 09-bvh may not call build_octree of step 06-octree"),
+        (5, '#include "steps/03-phong-shading/phong_shading.hpp"\nauto f() { return mirror(a, b); }\n', ""),
+    ],
+)
+def test_what_a_step_may_not_call_is_refused_where_it_calls_it(
+    steps: list[Step], step: int, source: str, said: str
+) -> None:
+    told = calls_what_it_may_not(steps[step - 1], steps, source)
+    assert said in told
+    assert bool(said) == bool(told)
+    if said:
+        assert told.startswith(f"It does not build: {steps[step - 1].file}:{len(source.splitlines())}:")
+
+
+def test_nothing_is_drawn_with_a_function_that_a_step_may_not_call(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    course = written_course(tmp_path, 1, 2, 3, 4, 5)
+    path = course.steps / "04-shadows" / "shadows.cpp"
+    path.write_text(f"{_LATER}Ray f() {{ return reflected_ray(hit); }}\n")
+    done = Outcome(0, timed_out=False, stdout="", stderr="", seconds=1)
+    monkeypatch.setattr(BuildTree, "build", lambda *_: done)
+    with pytest.raises(StudentBuildError, match=r"^step 04 does not build: shadows\.cpp:2:18: it calls a function of"):
+        build_mine(release_tree(course))
 
 
 def test_a_file_of_the_kit_that_fails_is_not_the_students_fault(course: Project) -> None:

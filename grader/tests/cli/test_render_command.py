@@ -78,6 +78,17 @@ def test_a_scene_that_is_not_there_is_told_before_anything_is_built(
     assert "scenes/nope.nff: is not there; expected a scene, such as scenes/lessons/" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [[], ["-o", "a.png", "--step", "1"]])
+@pytest.mark.parametrize("command", ["render", "view"])
+def test_a_scene_that_nobody_named_is_asked_for_before_anything_is_built(
+    command: str, words: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(BuildTree, "build", lambda *words: pytest.fail("it was built"))
+    assert main([command, *words]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"raysteps: {command}: expected a scene, like scenes/lessons/three-spheres.nff; all options")
+
+
 @pytest.mark.parametrize(
     ("typed", "said"),
     [

@@ -17,13 +17,17 @@ from raysteps.common.process import Outcome
 from raysteps.common.text import nearest, printable
 from raysteps.course.manifest import Step, read_all_steps, read_steps
 from raysteps.course.project import Project, here
+from raysteps.course.stubs import uses
 from raysteps.grading.build_messages import (
+    bare_name,
+    calls_what_it_may_not,
     compile_message,
     errors_in,
     is_of_a_linker,
     link_message,
-    missing_message,
+    missing_here,
     missing_name,
+    undefined_here,
     undefined_message,
 )
 from raysteps.models import ENDINGS
@@ -48,17 +52,35 @@ def _failed_step(steps: list[Step], said: str) -> Step | None:
     return next(iter(with_errors or ([] if None in stopped else stopped)), None)
 
 
-def _not_linked(steps: list[Step], said: str, ran: TaskResult) -> str:
+def _source(project: Project, step: Step) -> str:
+    """As it lies there; nothing where it is no file, as in a students' kit that lacks the step."""
+    try:
+        return (project.steps / step.path).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
+
+
+def _about(step: Step, message: str) -> str:
+    return f"step {step.number} does not build: {message.removeprefix(_USUAL)}"
+
+
+def _not_linked(project: Project, steps: list[Step], said: str, ran: TaskResult) -> str:
     """Something that a header asks for, or a helper that was declared and forgotten."""
     missing = missing_name(said)
     if missing is None:
         return f"your steps do not build: {link_message(ran).removeprefix(_USUAL)}"
     name, line = missing
-    bare = name.partition("(")[0].rpartition("::")[2].strip()
-    owner = next((step for step in steps if bare in step.functions), None)
-    step = owner or next((step for step in steps if step.file in line), None)
-    why = (missing_message if owner else undefined_message)((name,)).removeprefix(_USUAL)
-    return f"{f'step {step.number} does not build' if step else 'your steps do not build'}: {why}"
+    bare = bare_name(name)
+    written = f"::{name.partition('(')[0].strip()}"
+    owner = next((step for step in steps if any(written.endswith(f"::{one}") for one in step.functions)), None)
+    if owner is not None:
+        return _about(owner, missing_here((name,), _source(project, owner)))
+    caller = next((step for step in steps if step.file in line), None) or next(
+        (step for step in steps if any(uses(_source(project, step), [bare]))), None
+    )
+    if caller is not None:
+        return _about(caller, undefined_here(caller, (name,), _source(project, caller)))
+    return f"your steps do not build: {undefined_message((name,)).removeprefix(_USUAL)}"
 
 
 def why_own_steps_do_not_build(project: Project, outcome: Outcome) -> str:
@@ -70,10 +92,9 @@ def why_own_steps_do_not_build(project: Project, outcome: Outcome) -> str:
     steps = read_steps(project)
     step = _failed_step(steps, said)
     if step is not None:
-        source = (project.steps / step.path).read_text(encoding="utf-8", errors="replace")
-        return f"step {step.number} does not build: {compile_message(step, source, ran).removeprefix(_USUAL)}"
+        return _about(step, compile_message(step, _source(project, step), ran))
     if is_of_a_linker(said):
-        return _not_linked(steps, said, ran)
+        return _not_linked(project, steps, said, ran)
     return f"your steps do not build:\n{what_failed(outcome)}"
 
 
@@ -121,12 +142,22 @@ def _refuse_no_source(project: Project) -> None:
             )
 
 
+def _refuse_borrowed(project: Project) -> None:
+    """What `check` refuses builds all the same, and would draw the picture of another step's work."""
+    steps = read_all_steps(project)
+    for step in steps:
+        wrong = calls_what_it_may_not(step, steps, _source(project, step))
+        if wrong:
+            raise StudentBuildError(_about(step, wrong))
+
+
 def build_mine(tree: BuildTree, target: str = "raytrace-mine") -> Path:
     """Builds a program from the student's steps; what the compiler says is told only when that fails."""
     _refuse_no_source(tree.project)
     outcome = _build(tree, target)
     if outcome.code != 0:
         raise StudentBuildError(why_own_steps_do_not_build(tree.project, outcome))
+    _refuse_borrowed(tree.project)
     return tree.program(target)
 
 
@@ -176,9 +207,19 @@ def place_of_scene(args: Sequence[str]) -> int | None:
     return next((i for i in free if not args[i].startswith("-")), None)
 
 
-def with_scene(project: Project, args: Sequence[str]) -> list[str]:
+def _is_called_like_a_scene(word: str) -> bool:
+    """Behind an option that is none, which the program knows more about."""
+    return Path(word).suffix.lower() in (".nff", ".pbrt", *ENDINGS)
+
+
+def with_scene(project: Project, args: Sequence[str], command: str) -> list[str]:
     """The same words, with a scene that is there. Before anything is built."""
     place = place_of_scene(args)
+    if place is None and _NOTHING_TO_DRAW.isdisjoint(args) and not any(map(_is_called_like_a_scene, args)):
+        raise UsageError(
+            f"{command}: expected a scene, like scenes/lessons/three-spheres.nff; all options: "
+            f"{own_command()} {command} --help"
+        )
     if place is None:
         return list(args)
     return [*args[:place], scene_there(project, args[place]), *args[place + 1 :]]
@@ -261,7 +302,7 @@ def run_words(project: Project, args: list[str]) -> int:
     if picture is not None and Path(picture).suffix.lower() not in ("", ".png", ".ppm"):
         raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name that ends so")
     wanted_step(project, args)  # complains before anything is built
-    args = with_scene(project, args)
+    args = with_scene(project, args, "render")
     if place_of_scene(args) is not None and not any(word == "--spd" or word.startswith("-o") for word in args):
         raise UsageError(f"render: expected -o FILE for the picture; all options: {own_command()} render --help")
     for option in ("-o", "--stats"):

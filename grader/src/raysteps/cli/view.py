@@ -42,7 +42,7 @@ def run_words(project: Project, args: list[str]) -> int:
     """The arguments of the program view, and --impl."""
     impl, args = take_impl(args)
     wanted_step(project, args)
-    args = with_scene(project, args)
+    args = with_scene(project, args, "view")
     refuse_place(args, "--screenshot")
     if impl == "mine":
         refuse_missing_tree(project, args)

@@ -1,12 +1,12 @@
 """What a failed build says to a student: the first real error in the student's own file, and the lines around it."""
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from raysteps.common.text import join_and, nearest, printable, shorten
 from raysteps.course.manifest import Step, read_all_steps
-from raysteps.course.stubs import uses
+from raysteps.course.stubs import borrowed_functions, included, uses
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled, own_name
 from raysteps.toolchain.kit_artifacts import BuiltKit, function_name
@@ -232,11 +232,16 @@ def forbidden_message(step: Step, names: tuple[str, ...], owners: dict[str, tupl
             return "It does not build: it reaches for the counters of the grader, which are none of its business."
         other, _ = owners.get(name, (step, ""))
         if other.index > step.index:
-            return f"It does not build: it calls a function of step {other.id}, which comes later."
+            return later_message(other)
         if other.index < step.index:
             mine = [owners[one][1] for one in names if one in owners and owners[one][0] == other]
             return barred_message(step, other.id, list(map(function_name, mine)))
     return "It does not build: it calls a function of the kit that is not for the steps."
+
+
+def later_message(other: Step) -> str:
+    """A step that calls a function of this one."""
+    return f"It does not build: it calls a function of step {other.id}, which comes later."
 
 
 def barred_message(step: Step, other: str, functions: list[str]) -> str:
@@ -247,6 +252,28 @@ def barred_message(step: Step, other: str, functions: list[str]) -> str:
     )
 
 
+def barred_here(step: Step, barred: Collection[str], source: str) -> str:
+    """The same of those that it calls, with the place."""
+    other = next(place for place, name in step.barred if name in barred)
+    functions = [name for place, name in step.barred if place == other and name in barred]
+    return _at_its_use(barred_message(step, other, functions), step, functions, source)
+
+
+def calls_what_it_may_not(step: Step, steps: Sequence[Step], source: str) -> str:
+    """Of a step that builds: what is wrong with it if it calls functions that its manifest bars, or those of a later
+    step whose header it includes; else nothing. By its source alone, for whoever has no other means."""
+    barred = borrowed_functions(source, step.barred_functions)
+    if barred:
+        return barred_here(step, barred, source)
+    headers = set(included(source))
+    for other in steps:
+        if other.index > step.index and any(name.startswith(f'"steps/{other.id}/') for name in headers):
+            called = borrowed_functions(source, set(other.functions) - set(step.functions))
+            if called:
+                return _at_its_use(later_message(other), step, called, source)
+    return ""
+
+
 def missing_message(names: tuple[str, ...]) -> str:
     """Functions that the contract asks for and the file lacks."""
     shown = join_and([name.replace("raysteps::", "") for name in names])
@@ -254,11 +281,28 @@ def missing_message(names: tuple[str, ...]) -> str:
     return f"It does not build: {shown} {which} exactly as the header declares."
 
 
+def missing_here(names: tuple[str, ...], source: str) -> str:
+    """The same of names as a linker writes them, with what the file may have in their place."""
+    names = tuple(map(_as_in_a_header, names))
+    return missing_message(names) + _in_its_place(names, source)
+
+
 def undefined_message(names: tuple[str, ...]) -> str:
     """A helper that was declared and forgotten, or has another signature where it is defined."""
     shown = join_and([shorten(name, 200) for name in names[:5]])
     are = "is" if len(names) == 1 else "are"
     return f"It does not build: {shown} {are} called, but defined nowhere. Is the signature the same in both places?"
+
+
+def bare_name(name: str) -> str:
+    """Of a function as a linker writes it, what a source calls it by."""
+    return name.partition("(")[0].rpartition("::")[2].strip()
+
+
+def undefined_here(step: Step, names: tuple[str, ...], source: str) -> str:
+    """The same of names as a linker writes them, with the place at which the file calls the first."""
+    message = undefined_message(tuple(map(_as_in_a_header, names)))
+    return _at_its_use(message, step, set(map(bare_name, names)), source)
 
 
 def twice_message(name: str) -> str:
@@ -306,16 +350,11 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
         wanted = {*map(own_name, compiled.forbidden), *([_COUNTERS] if _of_counters(compiled.forbidden[0]) else [])}
         return _at_its_use(forbidden_message(step, compiled.forbidden, owners), step, wanted, source)
     if compiled.barred:
-        other = next(place for place, name in step.barred if name == compiled.barred[0])
-        functions = [name for place, name in step.barred if place == other and name in compiled.barred]
-        return _at_its_use(barred_message(step, other, functions), step, functions, source)
+        return barred_here(step, compiled.barred, source)
     if compiled.unreadable:
         return "It does not build: its object holds more names than a step can have, or cannot be read."
     if compiled.undefined:
-        wanted = {name.partition("(")[0].rpartition("::")[2] for name in compiled.undefined}
-        message = undefined_message(tuple(map(_as_in_a_header, compiled.undefined)))
-        return _at_its_use(message, step, wanted, source)
+        return undefined_here(step, compiled.undefined, source)
     if compiled.missing:
-        names = tuple(map(_as_in_a_header, compiled.missing))
-        return missing_message(names) + _in_its_place(names, source)
+        return missing_here(compiled.missing, source)
     return compile_message(step, source, compiled.ran)
