@@ -138,6 +138,12 @@ def test_what_could_not_be_read_is_no_step_that_nobody_began() -> None:
     ann, bob = table_rows(facts, {}, lambda name: None)
     assert [cell.words for cell in ann.cells if cell is not None] == ["not taken", "not started"]
     assert [cell.words for cell in bob.cells if cell is not None] == ["not taken", "not taken"]
+    assert [cell.status for cell in ann.cells if cell is not None] == ["not-taken", "not-started"]
+    page = class_page(facts, lambda name: None)
+    for status, sign in (("not-taken", "N"), ("not-started", "\u2013")):
+        assert f'<td class="{status}">' in page
+        assert f'.class-table .{status}::after {{ content: " {sign}"' in page
+    assert '<span class="sign not-taken"></span> not taken' in page
     console = Console(file=(text := io.StringIO()), width=200, color_system=None)
     print_summary(console, facts, Path("out"))
     assert "- not started, n not taken" in text.getvalue()

@@ -28,7 +28,7 @@ from raysteps.common.text import clean, number, plain_letters, printable
 from raysteps.course.manifest import Step
 from raysteps.desk.file_writer import FileWriter, check_folder
 from raysteps.desk.said import Said, Scribe
-from raysteps.report.class_page import STATUSES, found_by, who_and_more
+from raysteps.report.class_page import STATUSES, found_by, step_cell, who_and_more
 from raysteps.report.page import PictureData, picture_of, render_page
 from raysteps.report.student import ShownImage, parts_of, parts_that_count, step_view
 from raysteps.results.class_model import GradedSubmission
@@ -50,6 +50,7 @@ def _row(one: GradedSubmission, steps: Sequence[str], mistakes: Mapping[tuple[st
     who, more = who_and_more(one)
     review = one.review
     found = [one.steps.get(step) for step in steps]
+    cells = [step_cell(one, step) for step in steps]
     return {
         "name": one.name,
         "who": who,
@@ -60,7 +61,7 @@ def _row(one: GradedSubmission, steps: Sequence[str], mistakes: Mapping[tuple[st
         "final": "" if one.final is None else number(one.final),
         "days": one.late.days if one.late is not None else 0,
         "keys": [*(step.points if step is not None else None for step in found), one.final],
-        "statuses": [step.status if step is not None else "" for step in found],
+        "statuses": [cell.status if cell is not None else "" for cell in cells],
         "mistakes": [
             mistakes[step, title] for step, titles in one.mistakes.items() for title in titles
             if (step, title) in mistakes

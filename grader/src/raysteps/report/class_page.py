@@ -30,7 +30,8 @@ from raysteps.results.statuses import NOT_TAKEN, STATUS_WORDS
 
 Link = Callable[[str], str | None]
 
-STATUSES = {str(status): found.words for status, found in STATUS_WORDS.items()}
+_NOT_TAKEN = "not-taken"  # for the eye, and to filter by; in the results it is not started
+STATUSES = {**{str(status): found.words for status, found in STATUS_WORDS.items()}, _NOT_TAKEN: NOT_TAKEN.words}
 _NO_POINTS = {"fault": "fault", "not-graded": "not graded"}
 
 
@@ -85,12 +86,13 @@ def found_by(one: GradedSubmission) -> str:
     return searchable(" ".join(dict.fromkeys(word for word in words if word)))
 
 
-def _cell(one: GradedSubmission, step: str) -> Cell | None:
+def step_cell(one: GradedSubmission, step: str) -> Cell | None:
+    """What became of this step, for the eye; none where it was not graded."""
     result = one.steps.get(step)
     if result is None:
         return None
     if step in one.unread_steps and not result.points:
-        return Cell(result.status, NOT_TAKEN.words, tenths(result.points))
+        return Cell(_NOT_TAKEN, NOT_TAKEN.words, tenths(result.points))
     words = STATUSES.get(result.status, printable(result.status))
     return Cell(result.status, words, tenths(result.points))
 
@@ -122,7 +124,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
                 who=who,
                 more=more,
                 link=link(one.name),
-                cells=[_cell(one, step) for step in steps],
+                cells=[step_cell(one, step) for step in steps],
                 total=_points(one.points, one.status),
                 days=days,
                 final="" if one.final is None else number(one.final),
