@@ -29,3 +29,29 @@ def test_a_file_that_another_program_has_open_on_windows() -> None:
     assert reason(error) == "no permission"
     error.winerror = 32  # type: ignore[attr-defined,unused-ignore]
     assert reason(error) == "another program has it open"
+
+
+@pytest.mark.parametrize(
+    ("closed", "to", "said"),
+    [
+        ("out", os.X_OK, "no permission to enter the folder out"),
+        ("out/in", os.X_OK, "no permission to enter the folder in"),
+        ("out/in", os.W_OK, "no permission to write in the folder in"),
+        ("out/in/file", os.R_OK, "no permission"),
+    ],
+)
+def test_a_folder_that_is_closed_is_told_and_not_the_file_in_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, closed: str, to: int, said: str
+) -> None:
+    """As nobody may be kept out who is root, the system's answer is made up."""
+    (tmp_path / "out" / "in").mkdir(parents=True)
+    file = tmp_path / "out" / "in" / "file"
+    if to == os.R_OK:
+        file.touch()
+    monkeypatch.setattr(os, "access", lambda path, mode: (Path(path), mode) != (tmp_path / closed, to))
+    assert reason(PermissionError(errno.EACCES, "Permission denied", str(file))) == said
+
+
+def test_a_folder_whose_list_is_closed(tmp_path: Path) -> None:
+    error = PermissionError(errno.EACCES, "Permission denied", str(tmp_path))
+    assert reason_and_place(error) == f"{tmp_path}: no permission for what is in this folder"

@@ -1,6 +1,8 @@
 """What can go wrong, by exit code, and what the system says of files in words that a person can use."""
 
 import errno
+import os
+from pathlib import Path
 
 
 class RaystepsError(Exception):
@@ -48,12 +50,31 @@ def is_full(error: OSError) -> bool:
     return error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
+_CLOSED = (errno.EACCES, errno.EPERM)
+
+
+def _closed_folder(error: OSError) -> str:
+    """Where not the file but a folder on the way to it is closed: what it is that needs permission; else nothing. The
+    folder's name is enough beside the path that the message names."""
+    if error.errno not in _CLOSED or not isinstance(error.filename, str):
+        return ""
+    path = Path(error.filename)
+    for folder in reversed(path.absolute().parents):
+        if not os.access(folder, os.X_OK):
+            return f" to enter the folder {folder.name}"
+    if not os.path.lexists(path) and not os.access(path.absolute().parent, os.W_OK):
+        return f" to write in the folder {path.absolute().parent.name}"
+    if path.is_dir():
+        return " for what is in this folder"
+    return ""
+
+
 def reason(error: Exception) -> str:
     """Why a file could not be read or written, without numbers and without its path, which the message names."""
     if getattr(error, "winerror", None) == _SHARING_VIOLATION:  # to which Windows gives the number of EACCES
         return "another program has it open"
     if isinstance(error, OSError):
-        return _REASONS.get(error.errno or 0) or error.strerror or str(error)
+        return (_REASONS.get(error.errno or 0) or error.strerror or str(error)) + _closed_folder(error)
     return "it is no text in UTF-8" if isinstance(error, UnicodeDecodeError) else str(error)
 
 
