@@ -111,6 +111,46 @@ def test_a_command_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert "chekc: there is no such command; did you mean check? See ./raysteps --help" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("word", ["build", "run", "open", "status"])
+def test_a_word_of_another_program_is_answered_with_what_does_the_same(
+    word: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main([word, "01"])
+    said = capsys.readouterr().err
+    command = re.search(r"error: (\w+): there is no such command; did you mean (\w+)\?", said)
+    assert command is not None
+    assert command[2] in {one.name for one in app.COMMANDS}
+
+
+@pytest.mark.parametrize(
+    ("typed", "same"),
+    [
+        ("help", "--help"),
+        ("help check", "check --help"),
+        ("help export canvas", "export canvas --help"),
+        ("version", "--version"),
+    ],
+)
+def test_help_and_version_are_what_they_are_as_options(
+    typed: str, same: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = []
+    for words in (typed, same):
+        with pytest.raises(SystemExit) as ended:
+            main(words.split())
+        assert ended.value.code == 0
+        said.append(capsys.readouterr().out)
+    assert said[0] == said[1] != ""
+
+
+def test_help_with_what_is_no_command(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["help", "chek"])
+    assert ended.value.code == 2
+    assert "chek: there is no such command; did you mean check?" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("typed", "said"),
     [

@@ -109,11 +109,18 @@ _INSTEAD = {"grade": "check", "grade-class": "check", "nightly": "check", "learn
             "gallery": "finale"}  # fmt: skip
 
 
+# Words of other programs, and what does the same here.
+_MEANT = {"build": "check", "compile": "check", "make": "check", "run": "render", "draw": "render", "open": "report",
+          "start": "watch", "status": "list", "steps": "list", "ls": "list", "tip": "hint", "diff": "compare",
+          "submit": "check", "show": "view", "plagiarism": "similar", "undo": "reset"}  # fmt: skip
+
+
 def _no_such_command(project: Project, word: str) -> str:
     there = {one.name: one.about.replace(_IMPL, "") for one in _commands(project)}
     known = {one.name: one for one in COMMANDS}
     if word not in known:
-        return f"there is no such command{did_you_mean(word, there) or '.'} See ./raysteps --help"
+        meant = f"; did you mean {_MEANT[word]}?" if _MEANT.get(word) in there else did_you_mean(word, there)
+        return f"there is no such command{meant or '.'} See ./raysteps --help"
     if known[word].kit == "students":
         return "only a students' kit has this command; `./raysteps release` makes one. See ./raysteps --help"
     if project.has_reference:
@@ -237,10 +244,22 @@ def exit_code_of(error: BaseException) -> int:
     return GraderFault.exit_code
 
 
+# What is typed by who is used to other programs.
+_SAME = {"help": "--help", "version": "--version"}
+
+
+def as_options(words: Sequence[str]) -> list[str]:
+    """`help` and `version` as the options that they mean: `help check` is `check --help`."""
+    first, *rest = words or [""]
+    if first == "help":
+        return [*rest, _SAME[first]]
+    return [_SAME[first]] if first in _SAME and not rest else list(words)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command and returns its exit code; without words it prints the help."""
     project = here()
-    words = list(sys.argv[1:] if argv is None else argv)
+    words = as_options(sys.argv[1:] if argv is None else argv)
     command = next((one for one in _commands(project) if words[:1] == [one.name]), None)
     try:
         if command is None:
@@ -281,7 +300,7 @@ def run_process(argv: Sequence[str] | None = None) -> int:
     """The same for a process that does nothing else: a command that says how long it may take is ended after that."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy starts others for longer than it computes here
     gc.set_threshold(_RARELY)
-    words = list(sys.argv[1:] if argv is None else argv)
+    words = as_options(sys.argv[1:] if argv is None else argv)
     project = here()
     command = next((one for one in _commands(project) if words[:1] == [one.name] and one.supervised), None)
     if command is None:
