@@ -8,7 +8,7 @@ from course_fakes import printed, text
 from rich.console import Console
 
 from raysteps.course.manifest import Step
-from raysteps.results.model import ImageResult, StepResult, TestResult
+from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 from raysteps.results.statuses import Status
 from raysteps.watch.page_state import state_of
 from raysteps.watch.step_view import StepView
@@ -55,6 +55,20 @@ def test_a_check_tells_what_the_look_before_it_could_not(steps: list[Step]) -> N
     console = printed()
     TerminalView(console).result(replace(view, looked=tuple(result.tests)))
     assert "first" not in text(console)
+
+
+def test_nothing_is_named_twice(steps: list[Step]) -> None:
+    """Neither that it does not build nor what was asked."""
+    result = StepResult(steps[0].id, "does-not-build", 0.0, steps[0].points, bonus=False)
+    result.messages = ["It does not build: camera_rays.cpp:14:49: expected ';'\n   14 | here"]
+    console = printed()
+    TerminalView(console).result(StepView(steps[0], "idle", result=result, complete=True))
+    assert "It does not build.\n  camera_rays.cpp:14:49: expected ';'\n     14 | here\n" in text(console)
+    result = StepResult(steps[0].id, "failed", 0.0, steps[0].points, bonus=False)
+    result.hidden = [HiddenResult("point_at", "function", 0.0, message="point_at: 0 of 5 kinds of cases are right")]
+    console = printed()
+    TerminalView(console).result(StepView(steps[0], "idle", result=result, complete=True, full=True))
+    assert "  hidden  point_at: 0 of 5 kinds of cases are right\n" in text(console)
 
 
 _WARNING = "own.cpp:66:11: warning: 'nearer' may be used uninitialized [-Wmaybe-uninitialized]"

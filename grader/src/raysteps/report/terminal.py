@@ -129,7 +129,7 @@ def _print_tier(console: Console, result: StepResult, step: Step) -> None:
 
 def _print_hidden(console: Console, item: HiddenResult, again: Again, once: SaidOnce) -> None:
     console.print(f"  [red]hidden[/red]   {escape(item.name)}: {percent(item.share)} of its points")
-    message = once(item.message, item.outcome)
+    message = once(item.message, item.outcome).removeprefix(f"{item.name}: ")
     if message:
         _print_below(console, message)
     for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):

@@ -15,6 +15,7 @@ _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bo
 _SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
 _LONGEST = 600
 _MAX_FAILED = 2
+_TOLD_BEFORE = "It does not build: "  # by the line above
 
 KEYS = (
     ("h", "hint"),
@@ -92,7 +93,7 @@ class TerminalView:
             return
         if view.status in ("does-not-build", "not-started"):
             for message in view.result.messages:
-                for line in message.splitlines():
+                for line in message.removeprefix(_TOLD_BEFORE).splitlines():
                     self.line(f"  {line}")
             return
         if view.full:
@@ -141,7 +142,7 @@ class TerminalView:
 
     def _hidden(self, missed: Sequence[HiddenResult]) -> None:
         for item in missed[:_MAX_FAILED]:
-            self.line(f"  hidden  {item.name}: {item.message}", "red")
+            self.line(f"  hidden  {item.name}: {item.message.removeprefix(f'{item.name}: ')}", "red")
             for label, text in (("given", item.given), ("expected", item.expected), ("got", item.actual)):
                 if text:
                     self.line(f"    {label:<9} {text}")
