@@ -85,6 +85,14 @@ def test_entries_are_found_by_id_email_and_name() -> None:
     assert matches.student_notes == {}
 
 
+def test_a_name_whose_last_part_comes_first_is_asked_about_and_not_taken() -> None:
+    students = [_student(2, id="7", name="J\u00f6rg M\u00fcller"), _student(3, name="Ann Lee")]
+    matches = match(["M\u00fcller, J\u00f6rg", "Nobody Here"], students)
+    assert matches.pairs == []
+    assert matches.entry_notes[0].endswith(f" Is it that of {students[0].shown}, with the last name first?")
+    assert matches.entry_notes[1].endswith('in the column "submission".')
+
+
 def test_nobody_gets_an_entry_that_fits_several() -> None:
     students = [_student(2, id="1", name="Ann Lee"), _student(3, id="2", name="ann LEE")]
     matches = match(["ann_lee", "1.zip"], students)

@@ -229,6 +229,14 @@ def _named(entries: list[str], name: str) -> list[int]:
     return same or [at for at, entry in enumerate(entries) if stem(entry).casefold() == stem(name).casefold()]
 
 
+def _nobodys(name: str, students: list[Student]) -> str:
+    """What to say of an entry that fits nobody: who has the same words in another order is asked about, not taken."""
+    words = sorted(_plain(name).split("_"))
+    alike = [student.shown for student in students if student.name and sorted(_plain(student.name).split("_")) == words]
+    asked = f" Is it that of {' or '.join(alike)}, with the last name first?" if alike else ""
+    return f'Nobody on the roster has this name; say whose it is in the column "submission".{asked}'
+
+
 def match(entries: list[str], students: list[Student]) -> Matches:
     """Pairs entries and students. Several students may share an entry that the roster names for each of them."""
     matches = Matches()
@@ -252,5 +260,5 @@ def match(entries: list[str], students: list[Student]) -> Matches:
             shown = ", ".join(students[number].shown for number in best)
             matches.entry_notes[at] = f"Its name fits several students ({shown}), so it was given to none of them."
         elif students:
-            matches.entry_notes[at] = 'Nobody on the roster has this name; say whose it is in the column "submission".'
+            matches.entry_notes[at] = _nobodys(name, students)
     return matches
