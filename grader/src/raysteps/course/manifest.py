@@ -203,8 +203,13 @@ def _parse(text: str, path: Path) -> Step:
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise _no_manifest(path, error) from error
-    if len(step.files) != 1 or not step.functions or step.id != path.parent.name:
-        raise GraderFault(f"{path}: expected one file, at least one function and the id of its folder")
+    if step.id != path.parent.name:
+        raise GraderFault(
+            f"{path}: its id is {step.id}, but its folder is called {path.parent.name}; expected the same name twice. "
+            f"Was the folder renamed, or copied? Call it {step.id} again"
+        )
+    if len(step.files) != 1 or not step.functions:
+        raise GraderFault(f"{path}: expected one file and at least one function")
     if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
         raise GraderFault(f'{path}: CMake reads this, too; expected a line like `picture = "fog_picture"`')
     if not all(weight > 0 for weight in step.function_weights):
