@@ -4,6 +4,7 @@ import json
 import shutil
 from argparse import Namespace
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,10 +23,10 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
-from raysteps.grading.build_messages import AS_IN_A_HEADER, twice_message, undefined_message
+from raysteps.grading.build_messages import AS_IN_A_HEADER, FAILED, barred_message, twice_message, undefined_message
 from raysteps.images.compare import compare, parse_ppm
 from raysteps.images.noise import Estimates, compare_estimates
-from raysteps.play.play_page import PlayServer, first_includes, handout, publish, refuse_to_publish, with_places
+from raysteps.play.play_page import PlayServer, barred, first_includes, handout, publish, refuse_to_publish, with_places
 from raysteps.toolchain.catch2 import parse_report
 
 if TYPE_CHECKING:
@@ -84,16 +85,17 @@ _CHECK = """import { linkerWords, printedIn, readReport } from "./report.js";
 import { compareEstimates, readEstimates } from "./noise.js";
 import { compare, readPpm } from "./pictures.js";
 import { firstIncludes } from "./includes.js";
+import { borrowedWords } from "./borrowed.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
 const judge = (mine, reference, most) => compare(picture(mine), picture(reference), most);
 const judgeNoise = (bytes, noise) => compareEstimates(readEstimates(new Uint8Array(bytes)), noise);
-window.checks = { linkerWords, printedIn, readReport, firstIncludes, judge, judgeNoise };
+window.checks = { linkerWords, borrowedWords, printedIn, readReport, firstIncludes, judge, judgeNoise };
 """
 
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[PlayServer]:
-    for name in ("report.js", "noise.js", "pictures.js", "includes.js"):
+    for name in ("report.js", "noise.js", "pictures.js", "includes.js", "borrowed.js"):
         (tmp_path / name).write_bytes(files("raysteps.play").joinpath("static", name).read_bytes())
     (tmp_path / "index.html").write_text(_PAGE)
     (tmp_path / "check.js").write_text(_CHECK)
@@ -314,6 +316,30 @@ def test_what_the_linker_says_in_the_words_of_the_grader(watched: Watched, serve
         ("", None),
     ):
         assert page.evaluate("([text, words]) => checks.linkerWords(text, words)", [text, words]) == wanted
+
+
+def test_the_page_refuses_what_a_manifest_bars(watched: Watched, server: PlayServer, steps: list[Step]) -> None:
+    """By the linker's names, in the words of the grader, at the first place that is no comment."""
+    page = _open(watched, server)
+    tree, search = "_ZN8raysteps12build_octreeERKSt6vectorE", "_ZN8raysteps21closest_hit_in_octreeERKNS_4NodeE"
+    step = steps[8]
+    described = {"barred": barred(step), "source": f"/kit/steps/{step.path.as_posix()}"}
+    one = barred_message(step, "06-octree", ["closest_hit_in_octree"]).removeprefix(FAILED)
+    both = barred_message(step, "06-octree", ["build_octree", "closest_hit_in_octree"]).removeprefix(FAILED)
+    source = '// closest_hit_in_octree\nauto say = "build_octree";\nauto f() { return closest_hit_in_octree(a, b); }\n'
+    for asked, text, wanted in (
+        ([search], source, f"3:19: error: {one}"),
+        ([tree, search], source, f"3:19: error: {both}"),
+        ([search], "#define a closest ## _hit", f"1:1: error: {one}"),
+        (["_ZN8raysteps22closest_hit_in_octree2E", "_ZN4mine21closest_hit_in_octreeE"], source, None),
+    ):
+        words = page.evaluate("words => checks.borrowedWords(...words)", [described, asked, text])
+        assert words == ("" if wanted is None else f"{described['source']}:{wanted}\n")
+    assert not [other.id for other in steps if other is not step and barred(other)]
+    member = replace(step, barred=(("02-intersection", "Sphere::intersect"),))
+    described |= {"barred": barred(member)}
+    asked = ["_ZNK8raysteps6Sphere9intersectERKNS_3RayE"]
+    assert page.evaluate("words => checks.borrowedWords(...words)", [described, asked, ""])
 
 
 def test_the_page_finds_the_same_first_includes(

@@ -20,7 +20,7 @@ from play_pages import POINT, STARTED, save, source_of, status_says, write
 from raysteps.cli.render import build_program
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.build_messages import missing_message, undefined_message
+from raysteps.grading.build_messages import FAILED, barred_message, missing_message, undefined_message
 from raysteps.play.play_page import PlayServer, publish
 from raysteps.report.wording import inspect_options
 from raysteps.submission.load import load_submission
@@ -129,6 +129,26 @@ def test_what_the_linker_misses_is_told_as_the_native_kit_tells_it(page: "Page",
     declared = right.replace("namespace raysteps {", f"namespace raysteps {{ {helper}", 1)
     save(page, declared.replace(POINT, "return far(distance) * ray.direction;"))
     expect(problems).to_have_text(undefined_message(("far(float)",)), timeout=STARTED)
+
+
+def test_what_the_manifest_bars_is_refused_as_the_grader_refuses_it(
+    page: "Page", solved: dict[str, str], steps: list[Step]
+) -> None:
+    """Also where a name is put together: the object tells what the step calls."""
+    from playwright.sync_api import expect
+
+    step = steps[8]
+    own = "std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {"
+    theirs = "if (bvh.nodes.size() == 1) { return JOIN(closest_hit_, in_octree)(Node{}, ray); }"
+    right = '#include "steps/06-octree/octree.hpp"\n' + solved[step.id]
+    page.evaluate("location.hash = '#09'")
+    expect(page.locator("#play-file")).to_have_text(f"steps/{step.path.as_posix()}")
+    save(page, right.replace(own, f"#define JOIN(a, b) a##b\n{own} {theirs}"))
+    status_says(page, r"It does not compile\.", timeout=STARTED)
+    message = barred_message(step, "06-octree", ["closest_hit_in_octree"]).removeprefix(FAILED)
+    expect(page.locator("#play-problems")).to_contain_text(message, timeout=STARTED)
+    save(page, right)
+    status_says(page, r"Step 09 is right", timeout=STARTED)
 
 
 def test_an_endless_loop_stops_by_hand_and_by_itself(page: "Page", solved: dict[str, str]) -> None:

@@ -29,7 +29,7 @@ _TWICE = re.compile(
     r"|LNK2005: \"?(?P<theirs>[^\s\"][^\"\n]*)"
 )
 
-_FAILED = "It does not build: "
+FAILED = "It does not build: "
 _LAST_WORDS = re.compile(r"ld returned \d+ exit status|linker command failed|^compilation terminated")  # why is above
 
 
@@ -217,8 +217,8 @@ def _at_its_use(message: str, step: Step, names: Collection[str], source: str) -
     _, at = found
     line, column = source.count("\n", 0, at) + 1, at - source.rfind("\n", 0, at)
     place = f"{step.file}:{line}:{column}"
-    first, *more = message.removeprefix(_FAILED).splitlines()
-    return "\n".join([f"{_FAILED}{place}: {first}", _context(source, line, column), *more])
+    first, *more = message.removeprefix(FAILED).splitlines()
+    return "\n".join([f"{FAILED}{place}: {first}", _context(source, line, column), *more])
 
 
 def _of_counters(name: str) -> bool:

@@ -26,7 +26,9 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import (
     AS_IN_A_HEADER,
+    FAILED,
     IN_OTHER_WORDS,
+    barred_message,
     missing_message,
     twice_message,
     undefined_message,
@@ -187,6 +189,25 @@ def first_includes(source: str) -> str:
     return "".join(f"{line}\n" for line in lines if line.startswith("#"))
 
 
+def barred(step: Step) -> list[dict[str, Any]]:
+    """What the step may not call: of each step, patterns for the linker's names of its functions by what C++ calls
+    them, and what is said of one function, and of several."""
+
+    def pattern(function: str) -> str:
+        return "^_ZNK?8raysteps" + "".join(f"{len(part)}{part}" for part in function.split("::")) + "E"
+
+    of: dict[str, dict[str, str]] = {}
+    for other, function in step.barred:
+        of.setdefault(other, {})[function] = pattern(function)
+    return [
+        {
+            "symbols": symbols,
+            "words": [barred_message(step, other, list(names)).removeprefix(FAILED) for names in _NAMES],
+        }
+        for other, symbols in of.items()
+    ]
+
+
 class PlayPage:
     """Puts the page together in a folder."""
 
@@ -275,6 +296,7 @@ class PlayPage:
         return {
             "number": step.number,
             "source": source,
+            "barred": barred(step),
             "headers": {"includes": includes, "text": text, "file": name, "path": headers_path(step)},
         }
 

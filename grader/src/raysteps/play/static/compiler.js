@@ -1,6 +1,7 @@
 // The worker that compiles: clang and the linker, the headers, and the kit as objects. What it is asked is a step and
 // the sources that are the student's own; what it answers is a program, or what the compiler says.
 
+import { borrowedWords } from "./borrowed.js";
 import { firstIncludes } from "./includes.js";
 import { Files, runProgram } from "./wasi.js";
 
@@ -113,6 +114,11 @@ function filled(command, input, output) {
   return command.flatMap((word) => (word === kit.input ? input : word === kit.output ? [output] : [word]));
 }
 
+/** The linker's names of all that an object asks for: it is a module, too, which imports these. */
+function askedBy(object) {
+  return WebAssembly.Module.imports(new WebAssembly.Module(files.read(object))).map(({ name }) => name);
+}
+
 /** The path of the object, and what the compiler says. */
 async function compile(job, step, source) {
   const key = `${step.number} ${source}`;
@@ -126,7 +132,9 @@ async function compile(job, step, source) {
   const path = await prepareHeaders(step, source, () => postMessage({ job, headers: true }));
   const words = [...filled(kit.compile, [step.source], object), ...(path ? ["-include-pch", path] : [])];
   const said = runProgram(clang, words, files);
-  const made = { key, object, code: said.code, says: said.stderr + said.stdout };
+  const isBarred = said.code === 0 && step.barred.length > 0;
+  const borrowed = isBarred ? borrowedWords(step, askedBy(object), source) : "";
+  const made = { key, object, code: borrowed ? 1 : said.code, says: said.stderr + said.stdout + borrowed };
   compiled.set(step.number, made);
   return made;
 }

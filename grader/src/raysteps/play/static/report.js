@@ -29,10 +29,14 @@ export function linkerWords(said, words) {
     (asked.length ? asked : missed).map(([, , name]) => asInAHeader(name, words).replaceAll("raysteps::", "")),
   );
   const shown = [...names].slice(0, asked.length ? names.size : 5).map((name) => shorten(name, 200));
-  const [one, several] = asked.length ? words.missing : words.undefined;
-  const last = shown.pop();
-  return shown.length
-    ? several.replace("{} and {}", () => `${shown.join(", ")} and ${last}`)
+  return sentenceOf(shown, asked.length ? words.missing : words.undefined);
+}
+
+/** One of two sentences, about one name or about several; nothing where there is none. */
+export function sentenceOf(names, [one, several]) {
+  const [last, ...before] = [...names].reverse();
+  return before.length
+    ? several.replace("{} and {}", () => `${before.reverse().join(", ")} and ${last}`)
     : last && one.replace("{}", () => last);
 }
 
