@@ -2,6 +2,7 @@
 #include "steps/15-mis/mis.hpp"
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -111,7 +112,9 @@ Color light_along(std::vector<Stop> stops, const Color& background = k_black) {
 /// drawn. It stands for a scene in which all is known.
 class PlateBelowLamp final : public MisTracer {
 public:
-    explicit PlateBelowLamp(const RandomStream& random) : random_(random) {}
+    /// `light_samples` counts what step 15 does not ask for.
+    PlateBelowLamp(const RandomStream& random, std::atomic<int>& light_samples)
+        : random_(random), light_samples_(light_samples) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         HitRecord hit;
@@ -130,7 +133,11 @@ public:
         return hit;
     }
 
-    [[nodiscard]] Color light_sample(const HitRecord& hit) override { return direct_samples(hit).front().light; }
+    [[nodiscard]] Color light_sample(const HitRecord& hit) override {
+        ++light_samples_;
+        const std::vector<DirectSample> samples = direct_samples(hit);
+        return samples.empty() ? k_black : samples.front().light;
+    }
 
     [[nodiscard]] std::vector<DirectSample> direct_samples(const HitRecord& hit) override {
         if (hit.fill.emission != k_black) {
@@ -164,6 +171,7 @@ private:
     static constexpr float k_lamp_pdf = 1.0F / (2.0F * k_pi * 0.25F);  // over the lamp
 
     RandomStream random_;
+    std::atomic<int>& light_samples_;
     mutable int rays_ = 0;
     mutable glm::vec3 plate_normal_{0.0F};
 };
@@ -396,9 +404,10 @@ TEST_CASE("mis_path_light: right on average, and less noisy than either way alon
     constexpr int k_many = 20000;
     double sum = 0.0;
     double squares = 0.0;
-    const auto follow = [](std::size_t i) {
+    std::atomic<int> counted{0};
+    const auto follow = [&counted](std::size_t i) {
         const auto number = static_cast<std::uint32_t>(i);
-        PlateBelowLamp plate(RandomStream(test_seed() + 1, number));
+        PlateBelowLamp plate(RandomStream(test_seed() + 1, number), counted);
         RandomStream random(test_seed(), number);
         return mis_path_light(plate, Ray{glm::vec3(0.0F), glm::vec3(0.0F, 0.0F, -1.0F)}, random).x;
     };
@@ -406,6 +415,9 @@ TEST_CASE("mis_path_light: right on average, and less noisy than either way alon
         sum += light / k_many;
         squares += light * light / k_many;
     }
+    const int light_samples = counted;
+    INFO("the light of lamps comes from direct_samples: light_sample is not asked");
+    CHECK(light_samples == 0);
     INFO("a quarter of the directions shows a lamp of 2, and half of it goes on: 0.25");
     CHECK(sum == about(0.25, 0.002));
     INFO("paths alone have a variance of 0.1875");
