@@ -9,7 +9,7 @@ import pytest
 from raysteps.common.vectors import cross, unit
 from raysteps.judge.counterexamples import is_same_kind
 from raysteps.judge.functions import Function, functions_of
-from raysteps.judge.protocol import Frame, Inputs, Ray, real_of
+from raysteps.judge.protocol import Frame, Inputs, Ray, real_of, vec_of
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.statistics import Numbers, Uneven
 
@@ -112,7 +112,7 @@ def test_one_point_for_all_is_no_sample() -> None:
     inputs = _inputs("sample_triangle", "a few samples")
     rows = _triangle_samples(inputs, np.full((8, 2), 0.5))
     assert _problem(_FUNCTIONS["sample_triangle"], inputs, rows) == "different u give the same point"
-    off = "a point lies off the triangle, the same for every u"
+    off = "a point lies above or below the triangle, not in its plane, the same for every u"
     assert _problem(_FUNCTIONS["sample_triangle"], inputs, rows + 9.0) == off
 
 
@@ -170,3 +170,60 @@ def test_lenses_are_told_by_how_they_are_wrong(radius: float, *, across_the_ray:
     turns = np.arange(8)[:, None] * math.pi / 4
     spokes = real_of(inputs, "lens_radius") * radius * (np.cos(turns) * right + np.sin(turns) * up)
     assert _problem(_FUNCTIONS["lens_ray"], inputs, _lens_rays(inputs, spokes)) == said
+
+
+@pytest.mark.parametrize(
+    ("share", "aside", "said"),
+    [
+        (1.0, 0.0, ""),
+        (0.7, 0.0, "rays meet before the plane of focus"),
+        (1.5, 0.0, "rays meet behind the plane of focus"),
+        (1.0, 0.2, "rays meet in a point that lies beside the ray through the middle of the lens"),
+        (-1.0, 0.0, "rays run away from the plane of focus"),
+        (math.inf, 0.0, "all rays have one direction"),
+    ],
+)
+def test_rays_of_a_lens_are_told_by_where_they_meet(share: float, aside: float, said: str) -> None:
+    """`share`: of the way to the plane of focus; `aside`: of that way, across the ray."""
+    inputs = _inputs("lens_ray", "a few rays")
+    frame, ray = inputs["frame"], inputs["ray"]
+    assert isinstance(frame, Frame)
+    assert isinstance(ray, Ray)
+    right, up, middle = np.array(frame.right), np.array(frame.up), np.array(ray.direction)
+    turns = np.arange(8)[:, None] * math.pi / 4
+    spokes = 0.9 * real_of(inputs, "lens_radius") * (np.cos(turns) * right + np.sin(turns) * up)
+    way = real_of(inputs, "focal_distance") / float(middle @ np.array(frame.forward))
+    across = np.array(unit(cross(ray.direction, frame.up)))
+    ways = middle + 0 * spokes if share == math.inf else share * way * middle + aside * way * across - spokes
+    directions = ways / np.linalg.norm(ways, axis=1)[:, None]
+    rows = np.hstack([np.array(ray.origin) + spokes, directions])
+    assert _problem(_FUNCTIONS["lens_ray"], inputs, rows) == said
+
+
+@pytest.mark.parametrize(
+    ("reach", "beside", "said"),
+    [
+        (0.5, False, "a point lies off the sphere, though in a direction in which the sphere is seen"),
+        (0.5, True, "a point lies off the sphere, and so do all others"),
+        (-1.0, False, "all points lie on the side of the sphere that is not seen"),
+    ],
+)
+def test_points_off_a_sphere_are_told_by_how_they_are_seen(reach: float, *, beside: bool, said: str) -> None:
+    """`reach`: towards the viewer from the sphere's centre, in radii."""
+    inputs = _inputs("sample_sphere", "a few samples")
+    center, from_ = (np.array(vec_of(inputs, name)) for name in ("center", "from"))
+    back = np.array(unit(tuple(from_ - center)))
+    across = np.array(unit(cross(tuple(back), (0.6, 0.8, 0.0))))
+    lean = 1e-3 * np.arange(8)[:, None] * across
+    ways = reach * back + lean if reach > 0 else np.array([unit(tuple(way)) for way in reach * back + lean])
+    positions = center + real_of(inputs, "radius") * ways
+    positions = from_ + (from_ - positions) if beside else positions
+    rows = np.hstack([positions, np.broadcast_to(back, (8, 3)), np.ones((8, 1))])
+    assert _problem(_FUNCTIONS["sample_sphere"], inputs, rows) == said
+
+
+def test_points_on_a_line_do_not_fill_a_square() -> None:
+    numbers = np.random.default_rng(12).random(2048)
+    line = np.stack([2 * numbers - 1, 2 * numbers - 1], axis=1)
+    said = "all points lie on a line, and some outside of the disk"
+    assert _problem(_FUNCTIONS["unit_disk"], _inputs("unit_disk", "many points"), line) == said

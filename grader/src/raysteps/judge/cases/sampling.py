@@ -157,6 +157,16 @@ def _problem_of_amounts(amounts: Collection[int], side: int) -> str:
     return "a row of points is missing" if only_row else "there are not side * side points"
 
 
+_FAR = 2 + 1e-4  # no square is so wide that a point of one within the unit square could lie there
+
+
+def _empty_squares(points: Numbers, side: int) -> str:
+    """Which squares stay empty: some of them each time, or now this one and now that one."""
+    x, y = np.clip(np.floor(points * side), 0, side - 1).astype(np.int64).reshape(-1, 2).T
+    is_met = np.bincount(y * side + x, minlength=side * side) > 0
+    return "a square has no point, or two" if is_met.all() else "some squares never have a point, others have several"
+
+
 def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     side, times = whole_of(inputs, "side"), whole_of(inputs, "times")
     if len(actual.points) != times + 1:
@@ -169,10 +179,10 @@ def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     if (every < 0).any():
         return "a point lies outside of the unit square, below 0"
     if (every > 1).any():
-        return "a point lies outside of the unit square, beyond 1"
+        return f"a point lies outside of the unit square, {'far ' if (every > _FAR).any() else ''}beyond 1"
     shares = _in_squares(every[:-1], side)
     if shares is None:
-        return "a square has no point, or two"
+        return _empty_squares(every[:-1], side)
     if not np.array_equal(actual.points[0], actual.points[-1]):
         return "the same stream gave other points; all numbers must come from it"
     return _problem_of_squares(np.minimum(shares, 1.0).reshape(times, side, side, 2))
@@ -331,9 +341,9 @@ def _one_is_bright(draw: RandomSource) -> Inputs:
 
 
 def _of_no_weight(draw: RandomSource) -> Inputs:
-    """No sample at all, or only such as lie beyond the filter's reach."""
+    """No sample at all, or only such as lie beyond the filter's reach, where nobody's formula is off by rounding."""
     kind = _EVERY[draw.whole(0, 1)]
-    out = [PixelSample((draw.sign() * draw.real(1.1, 3), draw.real(-1, 1)), draw.color()) for _ in range(3)]
+    out = [PixelSample((draw.sign() * draw.eighths(1.125, 3), draw.real(-1, 1)), draw.color()) for _ in range(3)]
     return {"filter": _Filter(kind), "samples": PixelSamples(tuple(out[: draw.whole(0, 3)]))}
 
 

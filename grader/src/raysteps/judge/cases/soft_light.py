@@ -230,8 +230,15 @@ def _disk_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     x, y = actual.rows.T
     squares = x * x + y * y
     if float(squares.max()) > 1 + _OUT:
-        return "a point lies outside of the disk"
+        outside = "all points lie on a line, and some outside of the disk"
+        return outside if _on_a_line(actual.rows) else "a point lies outside of the disk"
     return _evenness(inputs, _DISK, _shares(squares, _turns(x, y)))
+
+
+def _on_a_line(points: Numbers) -> bool:
+    """Through any place and in any direction; not all at one place."""
+    wide, *narrow = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    return float(wide) > 0 and float(max(narrow)) <= 1e-4 * float(wide)
 
 
 _UNIT_DISK = Function(
@@ -261,9 +268,9 @@ def _cap_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
         return off("a direction does not have length 1", lengths)
     height = real_of(inputs, "height")
     found = _heights(actual.rows)
-    if float(found.max()) > height * (1 + 1e-3) + 1e-12 + (1e-6 if height > 0.01 else 0.0):
-        return "a direction lies outside of the cap"
     along = found / height if height else np.zeros(len(found))
+    if float(found.max()) > height * (1 + 1e-3) + 1e-12 + (1e-6 if height > 0.01 else 0.0):
+        return off("a direction lies outside of the cap", along)
     return _evenness(inputs, _CAP, _shares(along, _turns(actual.rows[:, 0], actual.rows[:, 1])))
 
 
@@ -406,7 +413,8 @@ def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     aside = float(np.abs(spokes @ normal).max()) > 1e-3 * size
     beyond = min(float(of_b.min()), float(of_c.min()), float((1 - of_b - of_c).min())) < -1e-3
     away = np.maximum(of_b + of_c, 1e-12)
-    position = _where("a point lies off the triangle", spokes) if aside or beyond else ""
+    place = "above or below the triangle, not in its plane" if aside else "in the triangle's plane, but beyond a side"
+    position = _where(f"a point lies {place}", spokes) if aside or beyond else ""
     position = position or _evenness(inputs, _TRIANGLE, _shares(away**2, of_c / away))
     density = _density_problem(_area_density(inputs, doubled / 2, normal, actual), actual)
     return position, _normal_problem(normal, actual), density
@@ -418,8 +426,13 @@ def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]
     spokes = (actual.rows[:, _POSITION] - np.array(vec_of(inputs, "center"))) / radius
     of_x, of_y = spokes @ x, spokes @ y
     squares = of_x**2 + of_y**2
-    aside = float(np.abs(spokes @ z).max()) > 1e-3 or float(squares.max()) > 1 + 2e-3
-    position = _where("a point lies off the disk", spokes) if aside else ""
+    aside = float(np.abs(spokes @ z).max()) > 1e-3
+    if aside and float((spokes**2).sum(axis=1).max()) <= 1 + 2e-3:
+        position = "the points lie around the disk's centre, but not in its plane"
+    elif aside or float(squares.max()) > 1 + 2e-3:
+        position = _where("a point lies off the disk" if aside else "a point lies beyond the disk's rim", spokes)
+    else:
+        position = ""
     position = position or _evenness(inputs, _DISK, _shares(squares, _turns(of_x, of_y)))
     density = _density_problem(_area_density(inputs, math.pi * radius * radius, z, actual), actual)
     return position, _normal_problem(z, actual), density
@@ -427,6 +440,14 @@ def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]
 
 _FLOAT = 3e-7  # of coordinates, with what a few sums lose
 _ROOT_OF_FLOAT = 7e-4  # of a distance: what a root of the difference of squares loses
+_SEEN = 1.02  # of the cap's height, with what rounding adds
+
+
+def _beside(heights: Numbers) -> str:
+    """Where points off a sphere lie for who looks at it. `heights`: of directions, in that of the cap that it fills."""
+    if float(heights.max()) <= _SEEN:
+        return "though in a direction in which the sphere is seen"
+    return "in a direction in which the sphere is not seen" if float(heights.min()) <= _SEEN else "and so do all others"
 
 
 def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
@@ -451,9 +472,10 @@ def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
         reach = np.linalg.norm(ways, axis=1)
         near = "points are all as near as the nearest one of the sphere, so most of them lie off it"
         is_near = float(np.abs(reach - (distance - radius)).max()) <= slack * radius
-        position = near if is_near else _where("a point lies off the sphere", spokes)
+        position = near if is_near else _where(f"a point lies off the sphere, {_beside(heights)}", spokes)
     elif float((spokes @ z).max()) > -sine + 0.05 + slack:
-        position = "a point lies on the side of the sphere that is not seen"
+        some = "all points lie" if float((spokes @ z).min()) > -sine else "a point lies"
+        position = f"{some} on the side of the sphere that is not seen"
     else:
         position = _evenness(inputs, _CAP, _shares(heights, _turns(local[:, 0], local[:, 1])))
     normals = spokes / np.maximum(sizes, 1e-30)[:, None]
@@ -593,6 +615,38 @@ _SAMPLED_LIGHT = Function(
 # The lens.
 
 
+def _reach_of_lens(spokes: Numbers, radius: float) -> str:
+    is_near = float(np.linalg.norm(spokes, axis=1).max()) <= radius
+    return "though no farther from its middle than its rim" if is_near else "and farther from its middle than its rim"
+
+
+_ONE_WAY = 1e-4
+_MISSED = 5e-3  # of the way to the plane of focus
+
+
+def _where_rays_meet(origins: Numbers, directions: Numbers, ray: Ray, way: float) -> str:
+    """In words, of rays that do not meet where they should: on `ray`, that far along it."""
+    middle = np.array(ray.direction)
+    if float((directions @ middle).max()) < 0:
+        return "rays run away from the plane of focus"
+    if (origins == origins[0]).all():  # as those of a lens without a size
+        return "rays miss their point of the plane of focus"
+    if float(np.abs(directions - directions[0]).max()) < _ONE_WAY:
+        return "all rays have one direction"
+    # The place from which the squares of the distances to all rays are least.
+    across = np.eye(3) - directions[:, :, None] * directions[:, None, :]
+    place, *_ = np.linalg.lstsq(across.sum(axis=0), (across @ origins[:, :, None]).sum(axis=0).ravel(), rcond=None)
+    missed = np.linalg.norm((across @ (place - origins)[:, :, None])[..., 0], axis=1)
+    if float(missed.max()) > _MISSED * way:
+        return "rays do not meet in one point"
+    to_place = place - np.array(ray.origin)
+    along = float(to_place @ middle)
+    if float(np.linalg.norm(to_place - along * middle)) > _MISSED * way:
+        return "rays meet in a point that lies beside the ray through the middle of the lens"
+    side = "before" if along < way else "behind"
+    return off(f"rays meet {side} the plane of focus", np.array([along / way]))
+
+
 def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     frame, ray = inputs["frame"], inputs["ray"]
     assert isinstance(frame, Frame)
@@ -608,7 +662,8 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     if lifted > slack:
         across = radius and float(np.abs(spokes @ np.array(ray.direction)).max()) <= slack
         plane = "the lens lies across the ray, and not across the view"
-        origin = plane if across else _where("a ray starts outside of the lens's plane", apart)
+        turned = f"a ray starts outside of the lens's plane, {_reach_of_lens(spokes, radius + slack)}"
+        origin = plane if across else _where(turned, apart)
     elif math.sqrt(float(squares.max())) > radius + slack:
         far = "far " if float(squares.max()) > 2.1 * radius * radius else ""  # no square around the lens is so wide
         origin = _where(f"a ray starts {far}beyond the rim of the lens", apart)
@@ -619,11 +674,11 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
     lengths = np.linalg.norm(directions, axis=1)
     if float(np.abs(lengths - 1).max()) > 1e-3:
         return origin, off("a direction does not have length 1", lengths)
-    sharp = np.array(add(ray.origin, ray.direction, focus / dot(ray.direction, frame.forward)))
-    ways = sharp - origins
+    way = focus / dot(ray.direction, frame.forward)
+    ways = np.array(add(ray.origin, ray.direction, way)) - origins
     wanted = ways / np.linalg.norm(ways, axis=1)[:, None]
     gap = float(np.linalg.norm(directions - wanted, axis=1).max())
-    return origin, "" if gap < 2e-3 else "rays do not meet in the plane of focus"
+    return origin, "" if gap < 2e-3 else _where_rays_meet(origins, directions, ray, way)
 
 
 def _lens_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
