@@ -1,5 +1,8 @@
 """What `render`, `inspect` and `view` say when a student's steps do not build."""
 
+import json
+import os
+import shlex
 from pathlib import Path
 
 import pytest
@@ -7,11 +10,13 @@ from course_fakes import small_project, write_own, written_course
 
 from raysteps.cli.render import build_mine, why_own_steps_do_not_build
 from raysteps.common.errors import StudentBuildError
-from raysteps.common.process import Outcome
+from raysteps.common.platform import is_windows
+from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.build_messages import calls_what_it_may_not
 from raysteps.toolchain.cmake import BuildTree, release_tree
+from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _OWN = "../../steps/03-phong-shading/phong_shading.cpp"
 _NINJA = f"""[1/7] Building CXX object framework/CMakeFiles/kit.dir/core/box.cpp.o
@@ -138,3 +143,17 @@ def test_a_build_that_was_stopped_is_told(course: Project) -> None:
 def test_what_is_not_understood_is_shown_from_its_failure_on(course: Project) -> None:
     told = _told(course, f"[1/7] Building CXX object x.o\nFAILED: x.o\nc++: fatal error: Killed\n{_STOPPED}")
     assert told.startswith("your steps do not build:\nFAILED: x.o\n")
+
+
+@pytest.mark.skipif(is_windows(), reason="Visual C++ has no such option")
+def test_a_stub_says_where_it_stands_as_seen_from_the_kit(kit: BuiltKit, tmp_path: Path) -> None:
+    """However the build calls the file: what a stub says is compiled in."""
+    folder, step = release_tree(kit.project).folder, kit.steps[0]
+    own = kit.project.steps / step.path
+    commands = json.loads((folder / "compile_commands.json").read_text(encoding="utf-8"))
+    (words,) = (shlex.split(one["command"]) for one in commands if (folder / one["file"]).resolve() == own.resolve())
+    compiler = words[: words.index("-o")]
+    for called in (str(own), os.path.relpath(own, folder)):
+        (tmp_path / "stub.cpp").write_text(f'#line 18 "{called}"\n__FILE__\n', encoding="utf-8")
+        ran = run([*compiler, "-E", "-P", tmp_path / "stub.cpp"], seconds=60, cwd=folder)
+        assert ran.stdout.strip() == f'"steps/{step.path.as_posix()}"', ran.stderr
