@@ -60,6 +60,8 @@ def _closed_folder(error: OSError) -> str:
         return ""
     path = Path(error.filename)
     for folder in reversed(path.absolute().parents):
+        if not folder.is_dir():
+            return ""
         if not os.access(folder, os.X_OK):
             return f" to enter the folder {folder.name}"
     if not os.path.lexists(path) and not os.access(path.absolute().parent, os.W_OK):
