@@ -157,6 +157,7 @@ def _problem_of_amounts(amounts: Collection[int], side: int) -> str:
     return "a row of points is missing" if only_row else "there are not side * side points"
 
 
+_OFTEN = 16  # so many times random points leave a square empty once in a million
 _FAR = 2 + 1e-4  # no square is so wide that a point of one within the unit square could lie there
 
 
@@ -164,7 +165,8 @@ def _empty_squares(points: Numbers, side: int) -> str:
     """Which squares stay empty: some of them each time, or now this one and now that one."""
     x, y = np.clip(np.floor(points * side), 0, side - 1).astype(np.int64).reshape(-1, 2).T
     is_met = np.bincount(y * side + x, minlength=side * side) > 0
-    return "a square has no point, or two" if is_met.all() else "some squares never have a point, others have several"
+    by_chance = is_met.all() or len(points) < _OFTEN
+    return "a square has no point, or two" if by_chance else "some squares never have a point, others have several"
 
 
 def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
