@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include "io/files.hpp"
 #include "io/texture_reader.hpp"
@@ -69,15 +68,6 @@ void read_metal(const PbrtScanner& scanner, const PbrtParameters& parameters, Fi
 }
 
 }  // namespace
-
-std::filesystem::path pbrt_path(const std::filesystem::path* folder, const PbrtScanner& scanner, const Token& token,
-                                const std::string& file) {
-    if (folder == nullptr || file.empty()) {
-        scanner.fail(token, folder == nullptr ? "a scene without other files" : "\"string filename\"",
-                     file.empty() ? "none" : raysteps::quoted(file));
-    }
-    return *folder / path_of(file);
-}
 
 void PbrtMaterials::name_texture(PbrtScanner& scanner, const Token& token) {
     const std::string name = scanner.string("a name");

@@ -25,10 +25,6 @@ struct PbrtMaterial {
     std::optional<PbrtTexture> texture;
 };
 
-/// Where a file lies that a scene names. Throws ReadError where the scene has no folder, or names none.
-[[nodiscard]] std::filesystem::path pbrt_path(const std::filesystem::path* folder, const PbrtScanner& scanner,
-                                              const Token& token, const std::string& file);
-
 /// What a scene says of textures and materials, and those that it named. Each function reads what follows the word of
 /// a directive.
 class PbrtMaterials {

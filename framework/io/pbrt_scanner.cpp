@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "io/files.hpp"
 #include "io/numbers.hpp"
@@ -160,6 +162,21 @@ void PbrtScanner::fail(const Token& token, std::string_view expected) const {
 
 void PbrtScanner::fail(const Token& token, std::string_view expected, std::string_view found) const {
     throw ReadError(name_, token.line, token.column, expected, found);
+}
+
+std::filesystem::path pbrt_path(const std::filesystem::path* folder, const PbrtScanner& scanner, const Token& token,
+                                const std::string& file) {
+    if (folder == nullptr || file.empty()) {
+        scanner.fail(token, folder == nullptr ? "a scene without other files" : "\"string filename\"",
+                     file.empty() ? "none" : raysteps::quoted(file));
+    }
+    return *folder / path_of(file);
+}
+
+void require_near(const PbrtScanner& scanner, const Token& token, const glm::vec3& point) {
+    if (!glm::all(glm::lessThanEqual(glm::abs(point), glm::vec3(k_farthest)))) {  // NaN is not, either
+        scanner.fail(token, "points within a thousand million of 0", "one that is farther away");
+    }
 }
 
 const PbrtParameter* PbrtParameters::find(std::string_view name) const {

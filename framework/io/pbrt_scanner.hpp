@@ -1,5 +1,7 @@
 #pragma once
 // Splits a scene in pbrt's format into directives and parameters.
+#include <filesystem>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,6 +59,13 @@ private:
     std::size_t line_ = 1;
     std::size_t line_start_ = 0;
 };
+
+/// Where a file lies that a scene names. Throws ReadError where the scene has no folder, or names none.
+[[nodiscard]] std::filesystem::path pbrt_path(const std::filesystem::path* folder, const PbrtScanner& scanner,
+                                              const Token& token, const std::string& file);
+
+/// Throws ReadError for a point that lies farther than k_farthest from 0, or nowhere.
+void require_near(const PbrtScanner& scanner, const Token& token, const glm::vec3& point);
 
 /// The parameters of one directive.
 class PbrtParameters {

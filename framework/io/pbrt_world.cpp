@@ -3,16 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/disk.hpp"
-#include "core/mesh_triangle.hpp"
 #include "core/sphere.hpp"
 #include "io/files.hpp"
 #include "io/obj_reader.hpp"
@@ -38,14 +35,6 @@ float radius_of(const PbrtScanner& scanner, const PbrtParameters& parameters, do
 }
 
 }  // namespace
-
-void require_near(const PbrtScanner& scanner, const Token& token, const glm::vec3& point) {
-    if (!glm::all(glm::lessThanEqual(glm::abs(point), glm::vec3(k_farthest)))) {  // NaN is not, either
-        scanner.fail(token, "points within a thousand million of 0", "one that is farther away");
-    }
-}
-
-// Lights.
 
 // Lights do not fall off with the distance, as in part one.
 void PbrtWorld::read_light(PbrtScanner& scanner, const Token& token) {

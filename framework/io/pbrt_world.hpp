@@ -3,9 +3,14 @@
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 
+#include "core/color.hpp"
+#include "core/fill.hpp"
+#include "core/mesh_triangle.hpp"
 #include "core/scene.hpp"
 #include "io/mesh_data.hpp"
 #include "io/pbrt_materials.hpp"
@@ -20,9 +25,6 @@ struct PbrtState {
     Color emission{0.0F};   ///< of an area light
     bool reversed = false;  ///< ReverseOrientation: of lights only, as all else has two sides
 };
-
-/// Throws ReadError for a point that lies farther than k_farthest from 0, or nowhere.
-void require_near(const PbrtScanner& scanner, const Token& token, const glm::vec3& point);
 
 /// Adds shapes and lights to a scene, as the state says. `mirror` takes pbrt's world to the kit's; of a scene without a
 /// folder no meshes are read. Each function reads what follows the word of a directive.
