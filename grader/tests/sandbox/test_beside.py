@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 from sandboxes import any_sandbox, hostile, sandbox, sandbox_named, secret
+from watch_fakes import is_running, wait_for
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.project import here
-from raysteps.sandbox import supervised
+from raysteps.sandbox import beside, supervised
 from raysteps.sandbox.keepers import start_keeper
 from raysteps.sandbox.lockdown import landlock_version, syscall_filter
 from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, StartedProcess, Task, TaskResult, Word
@@ -157,3 +158,15 @@ def test_as_root_it_is_a_user_of_its_own(sandbox: Sandbox, hostile: Path) -> Non
     if not can_lend_users():
         pytest.skip("only root can try this")
     assert _said(sandbox, hostile, "user") != ["0"]
+
+
+def test_a_fence_that_ends_early_leaves_nobody() -> None:
+    """As a bubblewrap leaves its first process, which waits for it."""
+    with subprocess.Popen(
+        ["sh", "-c", "sleep 1000 >&2 & echo $!"], stdout=subprocess.PIPE, start_new_session=True
+    ) as fence:
+        assert fence.stdout is not None
+        child = int(fence.stdout.readline())
+        assert is_running(child)
+        beside._wait(fence, 60)
+    wait_for(lambda: not is_running(child))

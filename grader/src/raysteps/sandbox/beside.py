@@ -129,6 +129,8 @@ def _wait(process: StartedProcess, seconds: float) -> tuple[int, float, bool]:
             _end_inside(process.pid)
         if timed_out and not readable(handle, _DYING_SECONDS):
             signal.pidfd_send_signal(handle, signal.SIGKILL)  # process.kill() may wait for it, and take its times away
+        with suppress(OSError):  # a fence that ended early leaves who waits for it; a keeper leads no group
+            os.killpg(process.pid, signal.SIGKILL)
         _, status, used = os.wait4(process.pid, 0)
     finally:
         os.close(handle)
