@@ -139,6 +139,8 @@ def test_what_could_not_be_read_is_no_step_that_nobody_began() -> None:
     assert [cell.words for cell in ann.cells if cell is not None] == ["not taken", "not started"]
     assert [cell.words for cell in bob.cells if cell is not None] == ["not taken", "not taken"]
     assert [cell.status for cell in ann.cells if cell is not None] == ["not-taken", "not-started"]
+    counted = [dict(figures.statuses) for figures in step_figures(facts)[:2]]
+    assert counted == [{"not-taken": 1}, {"not-started": 1}]
     page = class_page(facts, lambda name: None)
     for status, sign in (("not-taken", "N"), ("not-started", "\u2013")):
         assert f'<td class="{status}">' in page

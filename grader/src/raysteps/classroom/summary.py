@@ -15,7 +15,7 @@ from raysteps.classroom.late_policy import BY_FILE
 from raysteps.common.text import count, first_line, number, tenths
 from raysteps.report.class_page import FILE as CLASS_PAGE
 from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent
-from raysteps.results.statuses import NOT_TAKEN, Status, in_words
+from raysteps.results.statuses import NOT_TAKEN, NOT_TAKEN_STATUS, Status, in_words
 
 # Shows how far a class is: a bar on a terminal, lines elsewhere.
 
@@ -98,7 +98,7 @@ def _cell(one: GradedSubmission, step_id: str) -> str:
     step = one.steps.get(step_id)
     if step is None:
         return ""
-    if step_id in one.unread_steps and not step.points:
+    if one.shown_status(step_id) == NOT_TAKEN_STATUS:
         return f"[red]{_NOT_TAKEN}[/red]"
     mark = _SIGNS.get(step.status, "")
     idle = mark == "-" and not step.points  # somebody may have given points for it

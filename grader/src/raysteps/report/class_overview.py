@@ -123,9 +123,9 @@ def step_figures(document: ClassResults) -> list[StepFigures]:
     """In the order of the steps."""
     figures = []
     for step in document.steps:
-        found = [one.steps[step.id] for one in graded(document) if step.id in one.steps]
-        points = [result.points for result in found]
-        statuses = Counter(result.status for result in found)
+        found = [one for one in graded(document) if step.id in one.steps]
+        points = [one.steps[step.id].points for one in found]
+        statuses = Counter(one.shown_status(step.id) for one in found)
         bars = share_bars(points, step.points)
         figures.append(
             StepFigures(step.id, step.title, step.points, step.bonus, statuses, mean(points), median(points), bars)

@@ -24,14 +24,13 @@ from raysteps.report.class_overview import (
 )
 from raysteps.report.page import render_page
 from raysteps.results.class_model import ClassResults, GradedSubmission
-from raysteps.results.statuses import NOT_TAKEN, STATUS_WORDS
+from raysteps.results.statuses import NOT_TAKEN, NOT_TAKEN_STATUS, STATUS_WORDS
 
 # The table of a class: what each row shows, and what it is sorted and found by.
 
 Link = Callable[[str], str | None]
 
-_NOT_TAKEN = "not-taken"  # for the eye, and to filter by; in the results it is not started
-STATUSES = {**{str(status): found.words for status, found in STATUS_WORDS.items()}, _NOT_TAKEN: NOT_TAKEN.words}
+STATUSES = {str(status): found.words for status, found in STATUS_WORDS.items()} | {NOT_TAKEN_STATUS: NOT_TAKEN.words}
 _NO_POINTS = {"fault": "fault", "not-graded": "not graded"}
 
 
@@ -91,10 +90,8 @@ def step_cell(one: GradedSubmission, step: str) -> Cell | None:
     result = one.steps.get(step)
     if result is None:
         return None
-    if step in one.unread_steps and not result.points:
-        return Cell(_NOT_TAKEN, NOT_TAKEN.words, tenths(result.points))
-    words = STATUSES.get(result.status, printable(result.status))
-    return Cell(result.status, words, tenths(result.points))
+    status = one.shown_status(step)
+    return Cell(status, STATUSES.get(status, printable(status)), tenths(result.points))
 
 
 def _points(value: float | None, status: str) -> str:

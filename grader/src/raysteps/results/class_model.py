@@ -7,6 +7,7 @@ from msgspec import Meta
 
 from raysteps.common.documents import OPTIONAL, Amount, Count, Text
 from raysteps.results.model import EarlierSubmission, Lateness, Settings
+from raysteps.results.statuses import NOT_TAKEN_STATUS
 
 
 @dataclass
@@ -101,6 +102,11 @@ class GradedSubmission:
         if self.status == "unreadable":
             return set(self.steps)
         return {line.partition(": ")[0] for line in self.not_taken} & self.steps.keys()
+
+    def shown_status(self, step: str) -> str:
+        """For the eye: a step that was not taken is not started in the results, unless somebody gave points for it."""
+        result = self.steps[step]
+        return NOT_TAKEN_STATUS if step in self.unread_steps and not result.points else result.status
 
     @property
     def why_unread(self) -> list[str]:

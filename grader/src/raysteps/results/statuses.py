@@ -25,6 +25,8 @@ STATUS_WORDS: dict[Status, StatusWords] = {
     "crashed": StatusWords("crashed", "bad", "✗"),
     "timeout": StatusWords("took too long", "bad", "✗"),
 }
+NOT_TAKEN_STATUS = "not-taken"  # for the eye, and to filter by
+NOT_BUILT = "It does not build: "  # so begins the message of a step that does not
 NOT_TAKEN = StatusWords("not taken", "bad", "✗")  # nobody began it, as far as could be read
 
 
