@@ -179,12 +179,15 @@ def test_lenses_are_told_by_how_they_are_wrong(radius: float, *, across_the_ray:
         (0.7, 0.0, "rays meet before the plane of focus"),
         (1.5, 0.0, "rays meet behind the plane of focus"),
         (1.0, 0.2, "rays meet in a point that lies beside the ray through the middle of the lens"),
+        (1.001, 0.004, "rays meet in a point that lies beside the ray through the middle of the lens"),
         (-1.0, 0.0, "rays run away from the plane of focus"),
         (math.inf, 0.0, "all rays have one direction"),
+        (-math.inf, 0.0, "rays spread, as if they came from one point behind the lens"),
     ],
 )
 def test_rays_of_a_lens_are_told_by_where_they_meet(share: float, aside: float, said: str) -> None:
-    """`share`: of the way to the plane of focus; `aside`: of that way, across the ray."""
+    """`share`: of the way to the plane of focus; `aside`: of that way, across the ray. Without an end all rays have
+    the direction of the middle, and below 0 the place on the lens is added to it, not taken away."""
     inputs = _inputs("lens_ray", "a few rays")
     frame, ray = inputs["frame"], inputs["ray"]
     assert isinstance(frame, Frame)
@@ -194,7 +197,10 @@ def test_rays_of_a_lens_are_told_by_where_they_meet(share: float, aside: float, 
     spokes = 0.9 * real_of(inputs, "lens_radius") * (np.cos(turns) * right + np.sin(turns) * up)
     way = real_of(inputs, "focal_distance") / float(middle @ np.array(frame.forward))
     across = np.array(unit(cross(ray.direction, frame.up)))
-    ways = middle + 0 * spokes if share == math.inf else share * way * middle + aside * way * across - spokes
+    if math.isinf(share):
+        ways = middle + 0 * spokes if share > 0 else way * middle + spokes
+    else:
+        ways = share * way * middle + aside * way * across - spokes
     directions = ways / np.linalg.norm(ways, axis=1)[:, None]
     rows = np.hstack([np.array(ray.origin) + spokes, directions])
     assert _problem(_FUNCTIONS["lens_ray"], inputs, rows) == said

@@ -247,3 +247,19 @@ def test_few_points_can_be_told_too() -> None:
     case = Case("stratified_samples", "a few squares", _inputs(2, 1))
     assert _verdict(_right(2, 1), case.inputs).problem == ""
     assert "a square has no point" in _verdict(_right(2, 1)[:, [0, 0, 1, 2]], case.inputs).problem
+
+
+def test_squares_that_never_have_a_point_are_told_apart_from_those_that_are_empty_now_and_then() -> None:
+    inputs = _inputs(2, 64)
+    points = _right(2, 64)
+    points[:, 0] = points[:, 1]
+    assert _verdict(points, inputs).problem == "some squares never have a point, others have several"
+    points = _right(2, 64)
+    points[0, 0] = points[0, 1]
+    assert _verdict(points, inputs).problem == "a square has no point, or two"
+
+
+@pytest.mark.parametrize(("factor", "far"), [(1.9, ""), (64.0, "far ")])
+def test_points_beyond_the_unit_square_are_told_by_how_far(factor: float, far: str) -> None:
+    problem = _verdict(_right(2, 64) * factor, _inputs(2, 64)).problem
+    assert problem == f"a point lies outside of the unit square, {far}beyond 1"

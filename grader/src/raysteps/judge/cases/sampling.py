@@ -157,7 +157,7 @@ def _problem_of_amounts(amounts: Collection[int], side: int) -> str:
     return "a row of points is missing" if only_row else "there are not side * side points"
 
 
-_OFTEN = 16  # so many times random points leave a square empty once in a million
+_OFTEN = 16  # random points leave a given square empty so many times once in ten million
 _FAR = 2 + 1e-4  # no square is so wide that a point of one within the unit square could lie there
 
 

@@ -641,7 +641,9 @@ def _where_rays_meet(origins: Numbers, directions: Numbers, ray: Ray, way: float
         return "rays do not meet in one point"
     to_place = place - np.array(ray.origin)
     along = float(to_place @ middle)
-    if float(np.linalg.norm(to_place - along * middle)) > _MISSED * way:
+    if along < 0:
+        return "rays spread, as if they came from one point behind the lens"
+    if float(np.linalg.norm(to_place - along * middle)) > abs(along - way):
         return "rays meet in a point that lies beside the ray through the middle of the lens"
     side = "before" if along < way else "behind"
     return off(f"rays meet {side} the plane of focus", np.array([along / way]))
