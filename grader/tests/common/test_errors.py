@@ -52,6 +52,20 @@ def test_a_folder_that_is_closed_is_told_and_not_the_file_in_it(
     assert reason(PermissionError(errno.EACCES, "Permission denied", str(file))) == said
 
 
-def test_a_folder_whose_list_is_closed(tmp_path: Path) -> None:
+def test_a_folder_whose_list_is_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     error = PermissionError(errno.EACCES, "Permission denied", str(tmp_path))
+    assert reason_and_place(error) == f"{tmp_path}: no permission"  # as for a name that may not be changed
+    monkeypatch.setattr(os, "access", lambda path, _: Path(path) != tmp_path)
     assert reason_and_place(error) == f"{tmp_path}: no permission for what is in this folder"
+
+
+def test_a_link_into_a_closed_folder_is_told_as_any_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Who asks where it leads is refused as well."""
+    link = tmp_path / "link"
+    link.symlink_to(tmp_path / "closed" / "file")
+
+    def refuse(path: object, **_: object) -> os.stat_result:
+        raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
+    monkeypatch.setattr(os, "stat", lambda path, **more: refuse(path) if Path(path) == link else os.lstat(path))
+    assert reason(PermissionError(errno.EACCES, "Permission denied", str(link))) == "no permission"

@@ -50,6 +50,11 @@ def is_full(error: OSError) -> bool:
     return error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
+def _is_folder(path: Path) -> bool:
+    """Unlike Path's own, it raises nothing where a link leads into a closed folder."""
+    return os.path.isdir(path)  # noqa: PTH112
+
+
 _CLOSED = (errno.EACCES, errno.EPERM)
 
 
@@ -60,13 +65,13 @@ def _closed_folder(error: OSError) -> str:
         return ""
     path = Path(error.filename)
     for folder in reversed(path.absolute().parents):
-        if not folder.is_dir():
+        if not _is_folder(folder):
             return ""
         if not os.access(folder, os.X_OK):
             return f" to enter the folder {folder.name}"
     if not os.path.lexists(path) and not os.access(path.absolute().parent, os.W_OK):
         return f" to write in the folder {path.absolute().parent.name}"
-    if path.is_dir():
+    if _is_folder(path) and not os.access(path, os.R_OK | os.X_OK):
         return " for what is in this folder"
     return ""
 
