@@ -79,6 +79,13 @@ def test_a_helper_that_is_defined_nowhere_is_shown_where_it_is_called(course: Pr
     )
 
 
+def test_a_step_with_a_helper_of_its_own_of_that_name_is_not_blamed(course: Project, steps: list[Step]) -> None:
+    write_own(course, steps[1], "static float helper(float x) {\n    return x;\n}\nfloat y = helper(1);\n")
+    write_own(course, steps[2], "float helper(float x);\nfloat y = helper(1);\n")
+    said = "FAILED: bin/raytrace-mine\nld: (.text+0x9): undefined reference to `raysteps::helper(float)'\n"
+    assert _told(course, said).startswith("step 03 does not build: phong_shading.cpp:2:11: raysteps::helper(float) is")
+
+
 def test_what_is_there_in_place_of_a_function_that_is_gone_is_asked_about(course: Project, steps: list[Step]) -> None:
     write_own(course, steps[2], "Color Shade(int x) { return k_black; }\n")
     said = "FAILED: bin/raytrace-mine\nld: trace.cpp: undefined reference to `raysteps::shade(int)'\n"

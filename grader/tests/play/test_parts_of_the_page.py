@@ -23,10 +23,11 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
-from raysteps.grading.build_messages import AS_IN_A_HEADER, FAILED, barred_message, twice_message, undefined_message
+from raysteps.grading.build_messages import AS_IN_A_HEADER, barred_message, twice_message, undefined_message
 from raysteps.images.compare import compare, parse_ppm
 from raysteps.images.noise import Estimates, compare_estimates
 from raysteps.play.play_page import PlayServer, barred, first_includes, handout, publish, refuse_to_publish, with_places
+from raysteps.results.statuses import NOT_BUILT
 from raysteps.toolchain.catch2 import parse_report
 
 if TYPE_CHECKING:
@@ -324,8 +325,8 @@ def test_the_page_refuses_what_a_manifest_bars(watched: Watched, server: PlaySer
     tree, search = "_ZN8raysteps12build_octreeERKSt6vectorE", "_ZN8raysteps21closest_hit_in_octreeERKNS_4NodeE"
     step = steps[8]
     described = {"barred": barred(step), "source": f"/kit/steps/{step.path.as_posix()}"}
-    one = barred_message(step, "06-octree", ["closest_hit_in_octree"]).removeprefix(FAILED)
-    both = barred_message(step, "06-octree", ["build_octree", "closest_hit_in_octree"]).removeprefix(FAILED)
+    one = barred_message(step, "06-octree", ["closest_hit_in_octree"]).removeprefix(NOT_BUILT)
+    both = barred_message(step, "06-octree", ["build_octree", "closest_hit_in_octree"]).removeprefix(NOT_BUILT)
     source = '// closest_hit_in_octree\nauto say = "build_octree";\nauto f() { return closest_hit_in_octree(a, b); }\n'
     for asked, text, wanted in (
         ([search], source, f"3:19: error: {one}"),

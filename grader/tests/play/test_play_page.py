@@ -20,9 +20,10 @@ from play_pages import POINT, STARTED, save, source_of, status_says, write
 from raysteps.cli.render import build_program
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.grading.build_messages import FAILED, barred_message, missing_message, undefined_message
+from raysteps.grading.build_messages import barred_message, missing_message, undefined_message
 from raysteps.play.play_page import PlayServer, publish
 from raysteps.report.wording import inspect_options
+from raysteps.results.statuses import NOT_BUILT
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.cmake import release_tree
 
@@ -145,7 +146,7 @@ def test_what_the_manifest_bars_is_refused_as_the_grader_refuses_it(
     expect(page.locator("#play-file")).to_have_text(f"steps/{step.path.as_posix()}")
     save(page, right.replace(own, f"#define JOIN(a, b) a##b\n{own} {theirs}"))
     status_says(page, r"It does not compile\.", timeout=STARTED)
-    message = barred_message(step, "06-octree", ["closest_hit_in_octree"]).removeprefix(FAILED)
+    message = barred_message(step, "06-octree", ["closest_hit_in_octree"]).removeprefix(NOT_BUILT)
     expect(page.locator("#play-problems")).to_contain_text(message, timeout=STARTED)
     save(page, right)
     status_says(page, r"Step 09 is right", timeout=STARTED)

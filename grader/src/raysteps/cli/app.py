@@ -109,7 +109,7 @@ _INSTEAD = {"grade": "check", "grade-class": "check", "nightly": "check", "learn
             "gallery": "finale"}  # fmt: skip
 
 
-# Words of other programs, and what does the same here.
+# Words of other programs, and what comes nearest here.
 _MEANT = {"build": "check", "compile": "check", "make": "check", "run": "render", "draw": "render", "open": "report",
           "start": "watch", "status": "list", "steps": "list", "ls": "list", "tip": "hint", "diff": "compare",
           "submit": "check", "show": "view", "plagiarism": "similar", "undo": "reset"}  # fmt: skip

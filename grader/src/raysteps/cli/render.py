@@ -22,6 +22,7 @@ from raysteps.grading.build_messages import (
     bare_name,
     calls_what_it_may_not,
     compile_message,
+    defines,
     errors_in,
     is_of_a_linker,
     link_message,
@@ -32,6 +33,7 @@ from raysteps.grading.build_messages import (
 )
 from raysteps.models import ENDINGS
 from raysteps.report.terminal import short_path
+from raysteps.results.statuses import NOT_BUILT
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
@@ -39,7 +41,6 @@ from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
 # What a student is told when a program that is made of the own steps does not build.
 
 _FAILED = re.compile(r"^FAILED: .*$", re.MULTILINE)
-_USUAL = "It does not build: "
 _USAGE = UsageError.exit_code
 
 
@@ -61,26 +62,29 @@ def _source(project: Project, step: Step) -> str:
 
 
 def _about(step: Step, message: str) -> str:
-    return f"step {step.number} does not build: {message.removeprefix(_USUAL)}"
+    return f"step {step.number} does not build: {message.removeprefix(NOT_BUILT)}"
 
 
 def _not_linked(project: Project, steps: list[Step], said: str, ran: TaskResult) -> str:
     """Something that a header asks for, or a helper that was declared and forgotten."""
     missing = missing_name(said)
     if missing is None:
-        return f"your steps do not build: {link_message(ran).removeprefix(_USUAL)}"
+        return f"your steps do not build: {link_message(ran).removeprefix(NOT_BUILT)}"
     name, line = missing
     bare = bare_name(name)
     written = f"::{name.partition('(')[0].strip()}"
     owner = next((step for step in steps if any(written.endswith(f"::{one}") for one in step.functions)), None)
     if owner is not None:
         return _about(owner, missing_here((name,), _source(project, owner)))
-    caller = next((step for step in steps if step.file in line), None) or next(
-        (step for step in steps if any(uses(_source(project, step), [bare]))), None
+    sources = {step: _source(project, step) for step in steps}
+    # Who defines such a name calls its own, unless nobody else calls it.
+    using = sorted(
+        (step for step in steps if any(uses(sources[step], [bare]))), key=lambda it: defines(sources[it], bare)
     )
+    caller = next((step for step in steps if step.file in line), None) or next(iter(using), None)
     if caller is not None:
-        return _about(caller, undefined_here(caller, (name,), _source(project, caller)))
-    return f"your steps do not build: {undefined_message((name,)).removeprefix(_USUAL)}"
+        return _about(caller, undefined_here(caller, (name,), sources[caller]))
+    return f"your steps do not build: {undefined_message((name,)).removeprefix(NOT_BUILT)}"
 
 
 def why_own_steps_do_not_build(project: Project, outcome: Outcome) -> str:

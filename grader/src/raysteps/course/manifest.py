@@ -206,7 +206,7 @@ def _parse(text: str, path: Path) -> Step:
     if step.id != path.parent.name:
         raise GraderFault(
             f"{path}: its id is {step.id}, but its folder is called {path.parent.name}; expected the same name twice. "
-            f"Was the folder renamed, or copied? Call it {step.id} again"
+            f"Was the folder renamed? Call it {step.id} again. Was it copied? Give the copy an id of its own"
         )
     if len(step.files) != 1 or not step.functions:
         raise GraderFault(f"{path}: expected one file and at least one function")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from raysteps.common.text import join_and, nearest, printable, shorten
 from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.stubs import borrowed_functions, included, uses
+from raysteps.results.statuses import NOT_BUILT
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled, own_name
 from raysteps.toolchain.kit_artifacts import BuiltKit, function_name
@@ -29,7 +30,6 @@ _TWICE = re.compile(
     r"|LNK2005: \"?(?P<theirs>[^\s\"][^\"\n]*)"
 )
 
-FAILED = "It does not build: "
 _LAST_WORDS = re.compile(r"ld returned \d+ exit status|linker command failed|^compilation terminated")  # why is above
 
 
@@ -188,6 +188,11 @@ _MAX_DEFINED = 200  # functions that are compared
 _DEFINED = re.compile(r"\b(\w{1,60})\s?\([^;{}()]{0,500}\)\s{0,3}(?:const\s{0,3})?\{")
 
 
+def defines(source: str, name: str) -> bool:
+    """Whether it has a function of that name, whatever its arguments."""
+    return name in _DEFINED.findall(source)
+
+
 def _as_in_a_header(name: str) -> str:
     for pattern, plain in AS_IN_A_HEADER:
         name = re.sub(pattern, plain, name)
@@ -217,8 +222,8 @@ def _at_its_use(message: str, step: Step, names: Collection[str], source: str) -
     _, at = found
     line, column = source.count("\n", 0, at) + 1, at - source.rfind("\n", 0, at)
     place = f"{step.file}:{line}:{column}"
-    first, *more = message.removeprefix(FAILED).splitlines()
-    return "\n".join([f"{FAILED}{place}: {first}", _context(source, line, column), *more])
+    first, *more = message.removeprefix(NOT_BUILT).splitlines()
+    return "\n".join([f"{NOT_BUILT}{place}: {first}", _context(source, line, column), *more])
 
 
 def _of_counters(name: str) -> bool:

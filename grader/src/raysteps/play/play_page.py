@@ -26,7 +26,6 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.grading.build_messages import (
     AS_IN_A_HEADER,
-    FAILED,
     IN_OTHER_WORDS,
     barred_message,
     missing_message,
@@ -42,6 +41,7 @@ from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import MAX_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
 from raysteps.report.wording import inspect_options
+from raysteps.results.statuses import NOT_BUILT
 from raysteps.toolchain.kit_artifacts import paced
 
 Say = Callable[[str], None]
@@ -202,7 +202,7 @@ def barred(step: Step) -> list[dict[str, Any]]:
     return [
         {
             "symbols": symbols,
-            "words": [barred_message(step, other, list(names)).removeprefix(FAILED) for names in _NAMES],
+            "words": [barred_message(step, other, list(names)).removeprefix(NOT_BUILT) for names in _NAMES],
         }
         for other, symbols in of.items()
     ]

@@ -9,13 +9,13 @@ from rich.markup import escape
 from raysteps.common.text import count, shorten
 from raysteps.report.wording import HOW_SURE, replay_command, warnings_of, watch_command
 from raysteps.results.model import HiddenResult, StepResult, TestResult
+from raysteps.results.statuses import NOT_BUILT
 from raysteps.watch.step_view import StepView, Tone, verdict
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
 _SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
 _LONGEST = 600
 _MAX_FAILED = 2
-_TOLD_BEFORE = "It does not build: "  # by the line above
 
 KEYS = (
     ("h", "hint"),
@@ -93,7 +93,7 @@ class TerminalView:
             return
         if view.status in ("does-not-build", "not-started"):
             for message in view.result.messages:
-                for line in message.removeprefix(_TOLD_BEFORE).splitlines():
+                for line in message.removeprefix(NOT_BUILT).splitlines():
                     self.line(f"  {line}")
             return
         if view.full:

@@ -4,7 +4,7 @@ import { sentenceOf } from "./report.js";
 
 const NO_CODE = /\/\*.*?\*\/|\/\/[^\n]*|"(?:\\.|[^"\\\n])*"/gs;
 
-/** Line and column of the first of these names, the begin of the source where none stands in it. */
+/** Line and column where the first of these names is mentioned, the beginning of the source where none is. */
 function placeOf(names, source) {
   const code = source.replace(NO_CODE, (left) => left.replace(/[^\n]/g, " "));
   const at = Math.max(0, code.search(new RegExp(`\\b(?:${names.join("|")})\\b`)));

@@ -132,8 +132,8 @@ async function compile(job, step, source) {
   const path = await prepareHeaders(step, source, () => postMessage({ job, headers: true }));
   const words = [...filled(kit.compile, [step.source], object), ...(path ? ["-include-pch", path] : [])];
   const said = runProgram(clang, words, files);
-  const isBarred = said.code === 0 && step.barred.length > 0;
-  const borrowed = isBarred ? borrowedWords(step, askedBy(object), source) : "";
+  const mayBorrow = said.code === 0 && step.barred.length > 0;
+  const borrowed = mayBorrow ? borrowedWords(step, askedBy(object), source) : "";
   const made = { key, object, code: borrowed ? 1 : said.code, says: said.stderr + said.stdout + borrowed };
   compiled.set(step.number, made);
   return made;
