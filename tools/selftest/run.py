@@ -12,6 +12,7 @@ from rich.console import Console
 
 from raysteps.common import process
 from raysteps.common.platform import processor_count
+from raysteps.common.text import shorten
 from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs
@@ -140,8 +141,9 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
         told = re.findall(r"^(\d.*?) in \d.*$", outcome.stdout, re.MULTILINE)[-1:]  # the last line of a run
         told += [f"{same} of {len(inputs)} files are as before"] if same else []
         told += [
-            f"{place} will run again, since it reads {', '.join(sorted(missed[place]))}, which its source does not name"
-            for place in sorted(missed)
+            f"{place} will run again, since it reads {shorten(', '.join(sorted(read)), 200)}, "
+            "which its source does not name"
+            for place, read in sorted(missed.items())
         ]
         return Report("passed", "; ".join(told))
     output = (outcome.stdout + outcome.stderr)[-6000:]
