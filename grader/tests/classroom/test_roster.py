@@ -89,7 +89,9 @@ def test_a_name_whose_last_part_comes_first_is_asked_about_and_not_taken() -> No
     students = [_student(2, id="7", name="J\u00f6rg M\u00fcller"), _student(3, name="Ann Lee")]
     matches = match(["M\u00fcller, J\u00f6rg", "Nobody Here"], students)
     assert matches.pairs == []
-    assert matches.entry_notes[0].endswith(f" Is it that of {students[0].shown}, with the last name first?")
+    assert matches.entry_notes[0].endswith(
+        f" Is it that of {students[0].name} ({students[0].shown}), with the last name first?"
+    )
     assert matches.entry_notes[1].endswith('in the column "submission".')
 
 

@@ -232,7 +232,8 @@ def _named(entries: list[str], name: str) -> list[int]:
 def _nobodys(name: str, students: list[Student]) -> str:
     """What to say of an entry that fits nobody: who has the same words in another order is asked about, not taken."""
     words = sorted(_plain(name).split("_"))
-    alike = [student.shown for student in students if student.name and sorted(_plain(student.name).split("_")) == words]
+    there = [student for student in students if student.name and sorted(_plain(student.name).split("_")) == words]
+    alike = [f"{one.name} ({one.shown})" if one.shown != one.name else one.name for one in there]
     asked = f" Is it that of {' or '.join(alike)}, with the last name first?" if alike else ""
     return f'Nobody on the roster has this name; say whose it is in the column "submission".{asked}'
 
