@@ -244,16 +244,14 @@ def exit_code_of(error: BaseException) -> int:
     return GraderFault.exit_code
 
 
-# What is typed by who is used to other programs.
-_SAME = {"help": "--help", "version": "--version"}
-
-
 def as_options(words: Sequence[str]) -> list[str]:
     """`help` and `version` as the options that they mean: `help check` is `check --help`."""
-    first, *rest = words or [""]
-    if first == "help":
-        return [*rest, _SAME[first]]
-    return [_SAME[first]] if first in _SAME and not rest else list(words)
+    match list(words):
+        case ["help", *rest]:
+            return [*rest, "--help"]
+        case ["version"]:
+            return ["--version"]
+    return list(words)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

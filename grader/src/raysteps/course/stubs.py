@@ -203,7 +203,7 @@ def _is_declared(code: Sequence[str], at: int) -> bool:
 
 def _places(source: str, names: Collection[str]) -> Iterator[tuple[str, int, bool]]:
     """Where these names stand, and whether something is declared or defined there."""
-    placed = list(placed_tokens(source))
+    placed = list(placed_tokens(source)) if names else []
     code = [text for text, _ in placed]
     return ((word, placed[at][1], _is_declared(code, at)) for at, word in enumerate(code) if word in names)
 
