@@ -1,6 +1,7 @@
 """Every sandbox runs honest programs, and holds those that are not."""
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -28,6 +29,7 @@ from watch_fakes import wait_for
 from raysteps.course.project import here
 from raysteps.sandbox.monitor import descendants
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
+from raysteps.sandbox.task_dir import fresh_task_dir
 
 __all__ = ["any_sandbox", "hostile", "misbehave", "sandbox", "secret"]  # pytest finds fixtures by name
 
@@ -37,6 +39,26 @@ def _compile(sandbox: Sandbox, source: Path, *options: str) -> TaskResult:
 
 
 # Honest programs
+
+
+def test_a_copied_program_runs_whatever_starts_at_that_moment() -> None:
+    """A child has, until it is another program, all that this process has open: also a copy that is being written."""
+    done = threading.Event()
+    program = Path(shutil.which("true") or "")
+
+    def start_others() -> None:
+        while not done.is_set():
+            subprocess.run([program], check=True)
+
+    with ThreadPoolExecutor() as pool, fresh_task_dir(user=None) as place:
+        others = [pool.submit(start_others) for _ in range(4)]
+        try:
+            for _ in range(400):
+                subprocess.run([place.copied(program, "own", to_run=True)], check=True)
+        finally:
+            done.set()
+        for other in others:
+            other.result()
 
 
 def test_a_program_reads_and_writes(any_sandbox: Sandbox, hostile: Path, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from raysteps.common.errors import UsageError, reason
+from raysteps.common.errors import GraderFault, UsageError, reason
 
 # Locks between processes. A lock goes with the process that holds it, however that ends.
 
@@ -121,6 +121,23 @@ def write_bytes(path: Path, data: bytes, *, mode: int = 0o644, ending: str = "")
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def copy_program(source: Path, target: Path) -> None:
+    """Copies a file that is to be run, by another program: what this process writes, a child that another thread has
+    just started can hold open for a moment, and the system runs no file that is open for writing (ETXTBSY)."""
+    target.unlink(missing_ok=True)  # and does not write over the one that runs
+    if sys.platform == "win32":
+        shutil.copyfile(source, target)
+    else:
+        import subprocess  # rarely
+
+        words = ["cp", "--", str(source), str(target)]
+        copied = subprocess.run(words, check=False, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        if copied.returncode != 0:
+            said = copied.stderr.decode(errors="replace").strip()
+            raise GraderFault(f"{source}: cannot be copied to be run: {said}")
+    target.chmod(0o755)
 
 
 def forget_unfinished(folder: Path) -> None:

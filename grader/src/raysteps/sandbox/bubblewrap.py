@@ -165,10 +165,12 @@ class Bubblewrap:
 
         def locate(number: int, given: Input) -> str:
             inner = f"/in/{number}/{given.inner_name}"
+            to_run = given == task.command[0]
             # The list of mounts, which a task can read, has the host's names; a copy has none to tell.
-            shown = (
-                place.readable(given.path) if trusted or given.name is None else place.copied(given.path, given.name)
-            )
+            if trusted or given.name is None:
+                shown = place.readable(given.path, to_run=to_run)
+            else:
+                shown = place.copied(given.path, given.name, to_run=to_run)
             mounts.extend(["--ro-bind", str(shown), inner])
             return inner
 

@@ -33,7 +33,7 @@ else:
 
         isolation = _ISOLATION
 
-        def _locate(self, place: TaskDir, given: Input) -> Path:
+        def _locate(self, place: TaskDir, given: Input, *, to_run: bool) -> Path:
             return place.linked(given.path, given.inner_name)
 
         def _fences(self, task: Task, inputs: list[Path], folders: list[Path]) -> dict[str, Any] | None:

@@ -76,7 +76,7 @@ class SupervisedSandbox:
     isolation = Isolation()
     _lends_users = False
 
-    def _locate(self, place: TaskDir, given: Input) -> Path:
+    def _locate(self, place: TaskDir, given: Input, *, to_run: bool) -> Path:
         """Makes an input readable for the task."""
         raise NotImplementedError
 
@@ -105,7 +105,7 @@ class SupervisedSandbox:
         inputs: list[Path] = []
 
         def locate(_: int, given: Input) -> str:
-            inputs.append(self._locate(place, given))
+            inputs.append(self._locate(place, given, to_run=given == task.command[0]))
             return str(inputs[-1])
 
         inside = PathMap(task, locate)
@@ -258,8 +258,8 @@ class Lockdown(SupervisedSandbox):
         lacking += ["it could see that other processes run", "memory was watched, not fenced off"]
         return f"The code ran {join_and(there)}. There were no namespaces: {join_and(lacking)}."
 
-    def _locate(self, place: TaskDir, given: Input) -> Path:
-        return place.copied(given.path, given.inner_name)
+    def _locate(self, place: TaskDir, given: Input, *, to_run: bool) -> Path:
+        return place.copied(given.path, given.inner_name, to_run=to_run)
 
     def _fences(self, task: Task, inputs: list[Path], folders: list[Path]) -> dict[str, Any] | None:
         first = task.command[0]

@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import try_lock
+from raysteps.common.files import copy_program, try_lock
 from raysteps.sandbox.namespaces import compiler_command
 from raysteps.sandbox.task import Input, Task, Word, read_regular
 
@@ -47,17 +47,18 @@ def _others_may_read(path: Path) -> bool:
     return True
 
 
-def _copy_for_all(source: Path, target: Path) -> None:
+def _copy_for_all(source: Path, target: Path, *, to_run: bool = False) -> None:
     """A copy that every user can read, whatever the modes of the original."""
     if source.is_dir():
         target.mkdir()
         for entry in source.iterdir():
             _copy_for_all(entry, target / entry.name)
+        target.chmod(0o755)
+    elif to_run:
+        copy_program(source, target)
     else:
         shutil.copyfile(source, target)
         target.chmod(0o755 if _mode(source) & stat.S_IXUSR else 0o644)
-        return
-    target.chmod(0o755)
 
 
 def _common_ground() -> Path:
@@ -76,19 +77,20 @@ class TaskDir:
         self._user = user
         self._copies = 0
 
-    def readable(self, path: Path) -> Path:
+    def readable(self, path: Path, *, to_run: bool) -> Path:
         """The path itself, or a copy where the task's user could not read it."""
         if not path.exists():
             raise GraderFault(f"{path}: was to be read inside the sandbox, but it is not there.")
         if self._user is None or _others_may_read(path):
             return path.resolve()
-        return self.copied(path, path.name)
+        return self.copied(path, path.name, to_run=to_run)
 
-    def copied(self, path: Path, name: str) -> Path:
+    def copied(self, path: Path, name: str, *, to_run: bool) -> Path:
+        """`to_run`: it is the program of the task, and not what another one opens."""
         self._copies += 1
         target = self._folder / f"in{self._copies}" / name
         target.parent.mkdir(mode=0o755)
-        _copy_for_all(path, target)
+        _copy_for_all(path, target, to_run=to_run)
         return target
 
     def linked(self, path: Path, name: str) -> Path:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import content_hash, write_bytes
+from raysteps.common.files import content_hash, copy_program, write_bytes
 from raysteps.common.platform import executable
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
@@ -372,8 +372,8 @@ class StudentBuild:
         if not data:
             return None, ran
         name = f"{kind}-{step.number}{'-together' if together else ''}"
-        path = self._write(executable(Path(name)).name, data)
-        path.chmod(0o755)
+        path = self._folder / executable(Path(name)).name
+        copy_program(self._write(f"{name}.linked", data), path)
         return Program((Input(path, kind),)), None
 
     def _boxed(
