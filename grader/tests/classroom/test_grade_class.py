@@ -392,7 +392,10 @@ def test_of_a_team_the_latest_time_counts(tmp_path: Path, handed_in: Path) -> No
 
 
 def test_usage(tmp_path: Path, handed_in: Path) -> None:
-    out = tmp_path / "out"
+    out, graded = tmp_path / "out", tmp_path / "grades"
+    (graded / "submissions").mkdir(parents=True)
+    for path in (graded / "class.sqlite", tmp_path / "list.csv", tmp_path / "late.toml"):
+        path.touch()
     for words, message in (
         ((tmp_path / "missing", "--out", out), "expected a folder"),
         ((handed_in, "--out", handed_in / "out"), "lies in the folder of the submissions"),
@@ -401,8 +404,10 @@ def test_usage(tmp_path: Path, handed_in: Path) -> None:
         ((handed_in, "--out", out, "--only", "77"), "no step '77'"),
         ((handed_in, "--out", out, "--limit", "patience=1"), "--limit patience=1: expected one of"),
         ((handed_in, "--out", out, "--shard", "3/2"), "such as 2/8"),
-        ((handed_in, "--out", out, "--roster", tmp_path / "none.csv"), "roster cannot be read"),
-        ((handed_in, "--out", out, "--late-policy", tmp_path / "none.toml"), "late policy cannot be read"),
+        ((handed_in, "--out", out, "--roster", tmp_path / "lst.csv"), "there; expected a CSV .*mean list.csv"),
+        ((handed_in, "--out", out, "--late-policy", tmp_path / "lat.toml"), "there; expected a TOML .*mean late.toml"),
+        ((graded, "--out", out), "grades: holds the results of a class, since class.sqlite lies there; expected the f"),
+        ((graded / "submissions", "--out", out), "submissions: holds the results of a class"),
         ((handed_in, "--out", out, "--scheduler", "head"), "tcp://head:8786"),
         ((handed_in, "--out", out, "--scheduler", "tcp://head:1", "--jobs", "2"), "--jobs is for this machine"),
         (("--out", out), "expected a folder"),

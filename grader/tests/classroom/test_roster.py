@@ -37,6 +37,32 @@ def test_headers_are_tolerant(tmp_path: Path, text: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("header", "told"),
+    [
+        ("id;Full Name;E-Mail;Folder;Time", None),
+        ("id,,name,", None),
+        (
+            "id,submision,name",
+            "column 'submision' (is it submission?); read are id, name, first name, last name, email",
+        ),
+        ("id,name,Vornam", "column 'Vornam' (is it first name?); read are"),
+        ("id,name,Section,Grade", "columns 'Section' and 'Grade'; read are"),
+        ("id,abcd,bcde,cdef,defg,efgh,fghi,ghij", "'efgh' and 2 more; read are"),
+    ],
+)
+def test_a_column_that_is_passed_over_is_told(tmp_path: Path, header: str, told: str | None) -> None:
+    said: list[str] = []
+    path = _write(tmp_path, f"{header}\n7\n")
+    assert [student.id for student in read_roster(path, said.append)] == ["7"]
+    if told is None:
+        assert not said
+    else:
+        (words,) = said
+        assert words.startswith(f"{path}:1: nothing is read from the column")
+        assert told in words
+
+
+@pytest.mark.parametrize(
     ("text", "message"),
     [
         ("color,size\nred,1\n", r"roster\.csv:1: expected a header"),

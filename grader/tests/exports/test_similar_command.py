@@ -124,6 +124,15 @@ def test_whoever_has_the_kits_solution_is_told_with_the_option(
     assert _pairs(facts) == [("ann", "the kit's reference")]
 
 
+@pytest.mark.parametrize("inside", ["", "submissions"])
+def test_results_are_not_what_was_handed_in(places: Path, tmp_path: Path, inside: str) -> None:
+    (tmp_path / "grades" / "submissions").mkdir(parents=True)
+    (tmp_path / "grades" / "class.sqlite").touch()
+    for words in ([str(tmp_path / "grades" / inside)], [str(places / "class"), "--before", str(tmp_path / "grades")]):
+        with pytest.raises(UsageError, match=r"holds the results of a class, .*; expected the folder of what was han"):
+            _similar(*words, "--out", str(tmp_path / "page.html"))
+
+
 def test_one_alone_cannot_be_compared(places: Path, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="holds 0 submissions with work; expected two"):
         _similar(str(places / "class"), "--steps", "5", "--out", str(tmp_path / "page.html"))

@@ -69,6 +69,19 @@ def test_close_names_are_explained(tmp_path: Path, steps: list[Step], name: str)
     assert submission.notes == {"04-shadows": f"{name} was not taken: it must be {GOOD}."}
 
 
+@pytest.mark.parametrize("name", ["main.cpp", "my_light.cc", "notes (1).cxx"])
+def test_a_source_of_any_name_in_the_folder_of_a_step_is_explained(
+    tmp_path: Path, steps: list[Step], name: str
+) -> None:
+    place = f"steps/04-shadows/{name}"
+    submission = load_submission(_folder(tmp_path, place, "steps/04-shadows/shadows_test.cpp"), steps)
+    assert submission.notes == {"04-shadows": f"{place} was not taken: it must be {GOOD}."}
+    assert load_submission(_folder(tmp_path, GOOD), steps).notes == {}
+    (tmp_path / GOOD).rename(tmp_path / "shadow.cpp")
+    named = load_submission(tmp_path, steps).notes
+    assert named == {"04-shadows": f"shadow.cpp was not taken: it must be {GOOD}."}, "a name that is closer goes before"
+
+
 @pytest.mark.parametrize("name", ["shadows (1).cpp", "steps/04-shadows/shadows_test.cpp", "shadows.cpp~"])
 def test_close_names_do_not_matter_beside_the_right_one(tmp_path: Path, steps: list[Step], name: str) -> None:
     submission = load_submission(_folder(tmp_path, name, GOOD), steps)

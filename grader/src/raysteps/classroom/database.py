@@ -181,6 +181,17 @@ def transaction(connection: sqlite3.Connection) -> Iterator[None]:
         raise
 
 
+def refuse_results(folder: Path) -> None:
+    """A folder that grade-class wrote, or the one inside it with what became of each, holds nothing handed in."""
+    place = folder.resolve()
+    out = place.parent if place.name == "submissions" else place
+    if (out / FILE).is_file():
+        raise UsageError(
+            f"{folder}: holds the results of a class, since {FILE} lies there; expected the folder of what was handed "
+            "in, which grade-class was given in front of --out"
+        )
+
+
 def version_of(connection: sqlite3.Connection, path: Path) -> int:
     """0 for a database that is still empty."""
     (application,) = connection.execute("PRAGMA application_id").fetchone()

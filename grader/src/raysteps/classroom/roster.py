@@ -4,14 +4,15 @@ import csv
 import io
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
 from raysteps.classroom.entries import folded, platform_identity, stem
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import delimiter_of, join_and, one_line, seen
+from raysteps.common.text import delimiter_of, join_and, join_some, nearest, one_line, seen
+from raysteps.submission.load import like
 
 # Header names without anything but letters and digits, in lower case. The first that is there counts.
 _HEADERS = {
@@ -27,7 +28,9 @@ _HEADERS = {
     "repository": ("repository", "repositoryurl", "studentrepositoryurl", "repo", "repourl", "giturl"),
     "submitted_at": ("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
 }
+_TYPED = {"first": "first name", "last": "last name"}  # headers that are not called as the columns are here
 _MAX_BYTES = 16 << 20
+_MAX_NAMED = 5  # columns that nobody knows
 
 
 @dataclass(frozen=True)
@@ -67,6 +70,25 @@ def _columns(header: list[str], path: Path) -> dict[str, int]:
     return columns
 
 
+def _typed(column: str) -> str:
+    return _TYPED.get(column, column)
+
+
+def _unknown_columns(header: list[str], path: Path) -> str:
+    """What to tell of columns that are passed over, such as one with a slip of the pen; nothing where there is none."""
+    owners = {name: column for column, names in _HEADERS.items() for name in names}
+    unknown = [cell for cell in header if _plain_header(cell) and _plain_header(cell) not in owners]
+    if not unknown:
+        return ""
+    meant = {cell: nearest(_plain_header(cell), owners) for cell in unknown}
+    asked = [
+        repr(cell) if name is None else f"{cell!r} (is it {_typed(owners[name])}?)" for cell, name in meant.items()
+    ]
+    known = ", ".join(map(_typed, _HEADERS))
+    what = "column" if len(unknown) == 1 else "columns"
+    return f"{path}:1: nothing is read from the {what} {join_some(asked, _MAX_NAMED)}; read are {known}"
+
+
 def _time(text: str, where: str) -> str:
     if not text:
         return ""
@@ -86,7 +108,8 @@ def _text(path: Path) -> str:
         with path.open("rb") as file:
             data = file.read(_MAX_BYTES + 1)
     except OSError as error:
-        raise UsageError(f"{path}: the roster cannot be read: {reason(error)}") from error
+        expected = "expected a CSV file with a column id, name or email"
+        raise UsageError(f"{path}: the roster cannot be read: {reason(error)}; {expected}{like(path)}") from error
     if len(data) > _MAX_BYTES:
         raise UsageError(f"{path}: is larger than {_MAX_BYTES >> 20} MB; expected a roster")
     try:
@@ -111,11 +134,15 @@ def _cell(field: str, text: str) -> str:
     return one_line(text if field == "submission" else seen(text)).strip()
 
 
-def read_roster(path: Path) -> list[Student]:
-    """All students, in the order of the file."""
+def read_roster(path: Path, say: Callable[[str], None] = lambda words: None) -> list[Student]:
+    """All students, in the order of the file; `say` is told of columns that nobody knows."""
     rows = iter(_rows(_text(path), path))
     _, header = next(rows, (1, [""]))
-    columns = _columns([_cell("", cell) for cell in header], path)
+    header = [_cell("", cell) for cell in header]
+    columns = _columns(header, path)
+    unknown = _unknown_columns(header, path)
+    if unknown:
+        say(unknown)
     students: list[Student] = []
     lines: dict[tuple[str, str], int] = {}
     for line, row in rows:

@@ -10,7 +10,16 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from raysteps.classroom.database import FILE, LOCK, ClassDatabase, Registered, Registration, RunFacts, Scope
+from raysteps.classroom.database import (
+    FILE,
+    LOCK,
+    ClassDatabase,
+    Registered,
+    Registration,
+    RunFacts,
+    Scope,
+    refuse_results,
+)
 from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, name_entries, newest_time
 from raysteps.classroom.jobs import KIT_GRADER
 from raysteps.classroom.late_policy import late_policy_text, parse_late_policy
@@ -63,6 +72,7 @@ def check_places(folder: Path, out: Path, *, resume: bool) -> None:
     if not folder.is_dir():
         found, meant = ("is no folder", "") if folder.exists() else ("is not there", like(folder))
         raise UsageError(f"{folder}: {found}; expected a folder with one entry per submission{meant}")
+    refuse_results(folder)
     if _inside(out, folder):
         raise UsageError(f"--out {out}: lies in the folder of the submissions; name another folder")
     if _inside(folder, out / "submissions"):
@@ -78,7 +88,8 @@ def read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"{path}: the late policy cannot be read: {reason(error)}") from error
+        expected = "expected a TOML file with a deadline and percent_per_day"
+        raise UsageError(f"{path}: the late policy cannot be read: {reason(error)}; {expected}{like(path)}") from error
 
 
 # What the last run was given beside the submissions: a --resume that does not name it anew uses it again.
@@ -147,7 +158,7 @@ def read_run_inputs(options: ClassOptions) -> RunInputs:
         given.late_policy = last.late_policy
         given.said.append(_used_again(last, options.out, "--late-policy", "the late policy"))
     if options.roster is not None:
-        given.students = read_roster(options.roster)
+        given.students = read_roster(options.roster, given.said.append)
     elif last.students and not options.no_roster:
         given.students = last.students
         what = f"the roster ({count(len(last.students), 'student')})"

@@ -7,6 +7,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
+from raysteps.classroom.database import refuse_results
 from raysteps.classroom.entries import ANOTHERS, list_entries, name_entries
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
@@ -48,6 +49,7 @@ def _started(submission: Submission, stubs: dict[Step, str]) -> dict[Step, bytes
 
 def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> Started:
     """What each has begun, by name; who has begun nothing is named on stderr."""
+    refuse_results(folder)
     entries = list_entries(folder, left_out).entries
     names = name_entries([entry.label for entry in entries], {})
     entries.sort(key=lambda entry: name_order(entry.label))

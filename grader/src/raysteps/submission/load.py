@@ -20,7 +20,8 @@ from raysteps.submission.folders import FolderReader, PlainFolderReader, what_is
 
 _BARE = 2
 _MAX_NAME = 255  # letters; no system has longer names, but an archive may
-_ENDINGS = (".txt", ".bak", ".orig", "~", ".cpp", ".cc", ".cxx", ".c++", ".cp", ".c")
+_ENDINGS_OF_CODE = (".cpp", ".cc", ".cxx", ".c++", ".cp", ".c")
+_ENDINGS = (".txt", ".bak", ".orig", "~", *_ENDINGS_OF_CODE)
 _WORDS_OF_COPIES = re.compile(r"\b(?:copy|kopie|copia|copie|of|von|de|final|new|old|v)\b")
 
 
@@ -78,6 +79,12 @@ class Places:
         if len(parts[-1]) > _MAX_NAME or not _lower(parts[-1]).endswith(_ENDINGS):
             return None
         return self._plain.get(_plain(parts[-1]))
+
+    def beside(self, parts: tuple[str, ...]) -> str | None:
+        """The step in whose folder this lies, a source under any name but that of the step's tests."""
+        name = _lower(parts[-1])
+        is_code = name.endswith(_ENDINGS_OF_CODE) and not name.partition(".")[0].endswith("_test")
+        return self.is_of_a_step(parts[:-1]) if is_code and len(parts) > 1 else None
 
     def is_of_a_step(self, parts: tuple[str, ...]) -> str | None:
         """The step whose folder lies at this path."""
@@ -149,6 +156,7 @@ class _Collector:
         self._problems: dict[str, str] = {}  # why something at an accepted place was not taken
         self._copies: dict[str, list[str]] = {}  # what was left out because the same lay at a more explicit place
         self._near: dict[str, str] = {}  # what looks like a step's file but lies elsewhere or is called otherwise
+        self._beside: dict[str, str] = {}  # what lies in a step's folder and looks like no step's file
 
     def take(self, entries: Iterator[Entry]) -> None:
         for entry in entries:
@@ -159,8 +167,13 @@ class _Collector:
             self._expect_folder(entry)
             near = self._places.near(entry.parts)
             if near is not None:
-                expected = f"steps/{self._steps[near].path.as_posix()}"
-                self._near.setdefault(near, f"{shown(entry.parts)} was not taken: it must be {expected}.")
+                self._near.setdefault(near, self._not_taken(near, entry))
+            elif (beside := self._places.beside(entry.parts)) is not None:
+                self._beside.setdefault(beside, self._not_taken(beside, entry))
+
+    def _not_taken(self, step: str, entry: Entry) -> str:
+        expected = f"steps/{self._steps[step].path.as_posix()}"
+        return f"{shown(entry.parts)} was not taken: it must be {expected}."
 
     def _expect_folder(self, entry: Entry) -> None:
         """Where a step's folder belongs, a file is not taken; links and the like are told of otherwise."""
@@ -200,7 +213,7 @@ class _Collector:
                 self._problems.setdefault(step, f"The folder {shown(folder)} {why}.")
 
     def submission(self, name: str) -> Submission:
-        result = Submission(name, {}, self._near | self._problems)
+        result = Submission(name, {}, self._beside | self._near | self._problems)
         unusual = unusual_places({step: found.place for step, found in self._found.items()})
         for step, found in self._found.items():
             result.notes.pop(step, None)
