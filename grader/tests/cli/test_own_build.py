@@ -43,7 +43,7 @@ def test_the_students_error_comes_first_and_nothing_of_the_build(course: Project
     errors = f"../core/ray.hpp:3:1: error: in a header\n{_OWN}:2:11: error: 'nope' was not declared\n"
     said = (_NINJA + _STOPPED, errors) if on_stderr else (_NINJA + errors + _STOPPED, "")
     assert _told(course, *said) == (
-        "step 03 does not build: phong_shading.cpp:2:11: 'nope' was not declared\n"
+        "step 03 does not build: steps/03-phong-shading/phong_shading.cpp:2:11: 'nope' was not declared\n"
         "    1 | int one;\n    2 | int two = nope;\n      |           ^\n    3 | int three;"
     )
 
@@ -72,8 +72,9 @@ def test_a_helper_that_is_defined_nowhere_is_shown_where_it_is_called(course: Pr
     )
     said = "ld: (.text+0x9): undefined reference to `raysteps::helper(raysteps::HitRecord const&)'\n"
     assert _told(course, f"FAILED: bin/raytrace-mine\n{said}") == (
-        "step 03 does not build: phong_shading.cpp:2:24: raysteps::helper(const raysteps::HitRecord&) is called, but "
-        "defined nowhere. Is the signature the same in both places?\n"
+        "step 03 does not build: steps/03-phong-shading/phong_shading.cpp:2:24: "
+        "raysteps::helper(const raysteps::HitRecord&) is called, but defined nowhere. "
+        "Is the signature the same in both places?\n"
         "    1 | float helper(const HitRecord& hit);\n"
         "    2 | Color shade() { return helper(hit) * k_white; }\n      |                        ^"
     )
@@ -83,7 +84,8 @@ def test_a_step_with_a_helper_of_its_own_of_that_name_is_not_blamed(course: Proj
     write_own(course, steps[1], "static float helper(float x) {\n    return x;\n}\nfloat y = helper(1);\n")
     write_own(course, steps[2], "float helper(float x);\nfloat y = helper(1);\n")
     said = "FAILED: bin/raytrace-mine\nld: (.text+0x9): undefined reference to `raysteps::helper(float)'\n"
-    assert _told(course, said).startswith("step 03 does not build: phong_shading.cpp:2:11: raysteps::helper(float) is")
+    place = f"{steps[2].id}/phong_shading.cpp:2:11"
+    assert _told(course, said).startswith(f"step 03 does not build: steps/{place}: raysteps::helper(float) is")
 
 
 def test_what_is_there_in_place_of_a_function_that_is_gone_is_asked_about(course: Project, steps: list[Step]) -> None:
@@ -131,7 +133,8 @@ def test_nothing_is_drawn_with_a_function_that_a_step_may_not_call(
     path.write_text(f"{_LATER}Ray f() {{ return reflected_ray(hit); }}\n")
     done = Outcome(0, timed_out=False, stdout="", stderr="", seconds=1)
     monkeypatch.setattr(BuildTree, "build", lambda *_: done)
-    with pytest.raises(StudentBuildError, match=r"^step 04 does not build: shadows\.cpp:2:18: it calls a function of"):
+    place = r"steps/04-shadows/shadows\.cpp:2:18"
+    with pytest.raises(StudentBuildError, match=rf"^step 04 does not build: {place}: it calls a function of"):
         build_mine(release_tree(course))
 
 

@@ -90,8 +90,30 @@ def test_what_explains_a_step_of_ones_own_is_left_for_the_end(steps: list[Step],
     console = Console(file=(text := io.StringIO()), width=100, color_system=None)
     print_details(console, results, steps, tmp_path, str, own=True)
     assert "unit length" not in text.getvalue()
-    print_diagnoses(console, results)
+    print_diagnoses(console, results, steps)
     assert "most likely  the normal is not of unit length" in text.getvalue()
+
+
+def test_places_in_ones_own_files_are_told_with_their_folder(steps: list[Step], tmp_path: Path) -> None:
+    """An editor opens a place that it finds from the folder of the kit."""
+    result = StepResult(steps[0].id, "failed", 1.0, steps[0].points, steps[0].bonus)
+    result.messages = ["It does not build: camera_rays.cpp:14:49: no\n   14 | // camera_rays.cpp:3\n      | ^"]
+    result.build_log = "camera_rays.cpp:5:1: warning: unused [-Wx]\n/in/1/camera_rays.cpp:6:1: warning: too [-Wx]"
+    result.tests = [TestResult("a", False, "crashed at camera_rays.cpp:9", location="camera_rays_test.cpp:7")]
+    result.diagnoses = [Diagnosis("finding", "one", "`v` (camera_rays.cpp:8) has no value.")]
+    folder, said = f"steps/{steps[0].id}/", {}
+    for own in (False, True):
+        console = Console(file=(text := io.StringIO()), width=300, color_system=None)
+        print_details(console, Results.of("ann", [result]), steps, tmp_path, str, own=own)
+        if own:
+            print_diagnoses(console, Results.of("ann", [result]), steps)
+        said[own] = text.getvalue()
+    for place in ("camera_rays.cpp:14:49: no", "camera_rays.cpp:5:1: unused", "camera_rays.cpp:9", "camera_rays.cpp:8"):
+        assert f" {folder}{place}" in said[True].replace("(", " ")
+    assert f"   {folder}camera_rays_test.cpp:7\n" in said[True]
+    assert "14 | // camera_rays.cpp:3" in said[True]
+    assert "/in/1/camera_rays.cpp:6:1: too" in said[True]
+    assert folder not in said[False], "an instructor's kit is not where the submission lies"
 
 
 def test_a_newcomer_is_told_what_together_means(steps: list[Step]) -> None:

@@ -63,7 +63,8 @@ def test_nothing_is_named_twice(steps: list[Step]) -> None:
     result.messages = ["It does not build: camera_rays.cpp:14:49: expected ';'\n   14 | here"]
     console = printed()
     TerminalView(console).result(StepView(steps[0], "idle", result=result, complete=True))
-    assert "It does not build.\n  camera_rays.cpp:14:49: expected ';'\n     14 | here\n" in text(console)
+    place = f"steps/{steps[0].id}/camera_rays.cpp:14:49"
+    assert f"It does not build.\n  {place}: expected ';'\n     14 | here\n" in text(console)
     result = StepResult(steps[0].id, "failed", 0.0, steps[0].points, bonus=False)
     result.hidden = [HiddenResult("point_at", "function", 0.0, message="point_at: 0 of 5 kinds of cases are right")]
     console = printed()

@@ -54,7 +54,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if not told:
         tell(checked)
     if any(result.diagnoses for result in checked.results.steps):
-        print_diagnoses(console, checked.results)
+        print_diagnoses(console, checked.results, checked.kit.steps)
     elif has_learned and any(map(_is_unexplained, checked.results.steps)):
         console.print("The known mistakes are learned; none of them explains what is wrong.")
     changed = about_changed(project.root)

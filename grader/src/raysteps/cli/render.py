@@ -33,6 +33,7 @@ from raysteps.grading.build_messages import (
 )
 from raysteps.models import ENDINGS
 from raysteps.report.terminal import short_path
+from raysteps.report.wording import with_folder
 from raysteps.results.statuses import NOT_BUILT
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.build_kit import build_kit
@@ -62,7 +63,7 @@ def _source(project: Project, step: Step) -> str:
 
 
 def _about(step: Step, message: str) -> str:
-    return f"step {step.number} does not build: {message.removeprefix(NOT_BUILT)}"
+    return f"step {step.number} does not build: {with_folder(message.removeprefix(NOT_BUILT), step)}"
 
 
 def _not_linked(project: Project, steps: list[Step], said: str, ran: TaskResult) -> str:

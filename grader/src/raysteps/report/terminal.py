@@ -13,7 +13,16 @@ from rich.text import Text
 from raysteps.common.platform import kit_command
 from raysteps.common.text import mean, size, tenths
 from raysteps.course.manifest import Step
-from raysteps.report.wording import HOW_SURE, SaidOnce, ended, inspect_worst, percent, total_words, warnings_of
+from raysteps.report.wording import (
+    HOW_SURE,
+    SaidOnce,
+    ended,
+    inspect_worst,
+    percent,
+    result_with_folder,
+    total_words,
+    warnings_of,
+)
 from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Results, StepResult, TestResult, Work
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
@@ -154,7 +163,7 @@ def print_details(
     case once more; `own`: the steps are those in the repository, so that `inspect` sees what they do, and what explains
     them comes last, by `print_diagnoses`: where their student looks first."""
     known = {step.id: step for step in steps}
-    for result in results.steps:
+    for result in [result_with_folder(one, known[one.id]) for one in results.steps] if own else results.steps:
         console.print(
             f"\n[bold]{result.id}[/bold] {escape(known[result.id].title)}: {_status(result)}, {_points(result)}"
         )
@@ -190,9 +199,10 @@ def print_details(
             _print_hanging(console, "  together  ", result.cumulative.message)
 
 
-def print_diagnoses(console: Console, results: Results) -> None:
+def print_diagnoses(console: Console, results: Results, steps: list[Step]) -> None:
     """What explains the wrong steps, in one place, which takes seconds to find out or is known already."""
-    for result in results.steps:
+    known = {step.id: step for step in steps}
+    for result in [result_with_folder(one, known[one.id]) for one in results.steps]:
         if result.diagnoses:
             console.print(f"\n[bold]{result.id}[/bold]")
             for diagnosis in result.diagnoses:

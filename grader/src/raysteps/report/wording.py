@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from raysteps.common.platform import kit_command, own_command, quote_command
@@ -17,6 +18,7 @@ from raysteps.results.model import (
     Review,
     StepResult,
     Termination,
+    TestResult,
     Total,
 )
 from raysteps.results.statuses import in_words
@@ -184,6 +186,39 @@ def total_words(total: Total, *, visible_only: bool = False) -> str:
         return f"{extra}{of_what}"
     bonus = f", and {extra}" if total.bonus.points else ""
     return f"{tenths(total.points - total.bonus.points)} of {tenths(total.max)} points{of_what}{bonus}"
+
+
+# Places in a student's own files, for a terminal: an editor opens a place that it finds from the folder of the kit.
+
+
+def with_folder(text: str, step: Step) -> str:
+    """`own.cpp:14:49` of the step, or of its tests, as `steps/01-own/own.cpp:14:49`; shown code stays as it is."""
+    stem = re.escape(Path(step.file).stem)
+    place = re.compile(rf"(?<![\w./\\-])({stem}(?:_test)?\.cpp)(?=[:(]\d)")
+    lines = text.split("\n")
+    return "\n".join(
+        line if re.match(r" *\d* *\|", line) else place.sub(rf"steps/{step.id}/\1", line) for line in lines
+    )
+
+
+def tests_with_folder(tests: Sequence[TestResult], step: Step) -> list[TestResult]:
+    return [
+        replace(test, message=with_folder(test.message, step), location=with_folder(test.location, step))
+        for test in tests
+    ]
+
+
+def result_with_folder(result: StepResult, step: Step) -> StepResult:
+    """A copy of which all places are told like that."""
+    told = replace(result, build_log=with_folder(result.build_log, step))
+    told.messages = [with_folder(message, step) for message in result.messages]
+    told.tests = tests_with_folder(result.tests, step)
+    told.images = [replace(image, message=with_folder(image.message, step)) for image in result.images]
+    told.hidden = [replace(item, message=with_folder(item.message, step)) for item in result.hidden]
+    told.diagnoses = [
+        replace(one, title=with_folder(one.title, step), hint=with_folder(one.hint, step)) for one in result.diagnoses
+    ]
+    return told
 
 
 # What the compiler warns of.

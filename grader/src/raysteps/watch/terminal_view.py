@@ -2,12 +2,20 @@
 
 import textwrap
 from collections.abc import Sequence
+from dataclasses import replace
 
 from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.text import count, shorten
-from raysteps.report.wording import HOW_SURE, replay_command, warnings_of, watch_command
+from raysteps.report.wording import (
+    HOW_SURE,
+    replay_command,
+    result_with_folder,
+    tests_with_folder,
+    warnings_of,
+    watch_command,
+)
 from raysteps.results.model import HiddenResult, StepResult, TestResult
 from raysteps.results.statuses import NOT_BUILT
 from raysteps.watch.step_view import StepView, Tone, verdict
@@ -44,6 +52,13 @@ def _is_news(test: TestResult, looked: Sequence[TestResult]) -> bool:
     return test.outcome != "timeout" and all(
         (test.name, test.message) != (other.name, other.message) for other in looked
     )
+
+
+def _with_folder(view: StepView) -> StepView:
+    if view.result is None:
+        return view
+    looked = tuple(tests_with_folder(view.looked, view.step))
+    return replace(view, result=result_with_folder(view.result, view.step), looked=looked)
 
 
 class TerminalView:
@@ -86,6 +101,7 @@ class TerminalView:
 
     def result(self, view: StepView) -> None:
         """What came of a look or of a check."""
+        view = _with_folder(view)
         tone, text = verdict(view)
         took = f"  ({view.seconds:.1f} s)" if view.seconds is not None and not view.full and tone != "plain" else ""
         self.line(f"{_SIGNS[tone]} {text}{took}", _COLORS[tone])
