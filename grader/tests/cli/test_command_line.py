@@ -28,6 +28,9 @@ pytestmark = pytest.mark.portable
         ("export canvas --otu=a", "export canvas", "--otu: there is no such option; did you mean --out?"),
         ("compare a.png b.png -x", "compare", "-x: there is no such option"),
         ("list all", "list", "'all': expected nothing more"),
+        ("test 01", "test", "'01': expected nothing more; for a step of yours type: ./raysteps check 01"),
+        ("list steps/01-x", "list", "'steps/01-x': expected nothing more; for a step of yours type: ./raysteps check "
+         "steps/01-x"),
         ("hint --level x", "hint", "argument --level: expected a whole number from 1 on, found 'x'"),
         ("grade there --seed 1.5", "grade", "argument --seed: expected a whole number, found '1.5'"),
         ("dev errors --minutes few", "dev errors", "argument --minutes: expected a number such as 0.5, found 'few'"),

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from itertools import takewhile
 from typing import Any, NoReturn
 
-from raysteps.common.platform import own_command
+from raysteps.common.platform import kit_command, own_command
 from raysteps.common.text import did_you_mean, join_and
 
 STUDENTS_KIT = "students_kit"  # a default of the parsers there: the project
@@ -75,6 +75,7 @@ class Parser(argparse.ArgumentParser):
     parser of all commands, which knows nothing of it, and asks first for what is missing."""
 
     example = ""  # what may be typed after the command
+    for_steps = ""  # which command is for a step, where this one takes none
 
     def __init__(self, *words: Any, **options: Any) -> None:
         super().__init__(*words, **options)
@@ -90,8 +91,13 @@ class Parser(argparse.ArgumentParser):
         known, left = super().parse_known_args(args, namespace)
         self._refuse_unknown(word for word in left if word.startswith("-"))
         if left:
-            self.error(f"'{left[0]}': expected nothing more")
+            self.error(f"'{left[0]}': expected nothing more{self._of_a_step(left)}")
         return known, left
+
+    def _of_a_step(self, words: Sequence[str]) -> str:
+        if not self.for_steps or not re.match(r"(?:steps[/\\])?\d", words[0]):
+            return ""
+        return f"; for a step of yours type: {kit_command(self.for_steps, *words)}"
 
     def _get_option_tuples(self, option_string: str) -> Any:
         """What a beginning of an option may mean: two names of one option are no two options."""

@@ -103,6 +103,10 @@ EXAMPLES = {
 }
 
 
+# What is meant by those that take no step, where one is named.
+_FOR_STEPS = {"test": "check", "list": "check", "next": "hint"}
+
+
 # What a students' kit has in their place; else what there is.
 _INSTEAD = {"grade": "check", "grade-class": "check", "nightly": "check", "learn": "check", "replay": "check",
             "test": "check", "leaderboard": "report", "desk": "report", "demo": "finale",
@@ -161,6 +165,7 @@ def new_parser(project: Project, only: str | None = None) -> argparse.ArgumentPa
     for command in _commands(project):
         child = commands.add_parser(command.name, help=command.about.replace(_IMPL, impl))
         child.example = EXAMPLES.get(command.name, "")
+        child.for_steps = _FOR_STEPS.get(command.name, "")
         if not project.has_reference:
             child.set_defaults(**{STUDENTS_KIT: project})
         if only in (None, command.name):

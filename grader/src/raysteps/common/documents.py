@@ -150,16 +150,66 @@ def place_in_toml(text: str, path: Sequence[str]) -> str:
     return found
 
 
+# What is mostly meant where a line is not TOML, and how it is written: of the text behind the =, without a comment.
+_ADVICE = (
+    (r"", "nothing stands behind the ="),
+    (r".*[\u201c-\u201f\u2018-\u201b]", 'these quotes are curved; straight ones are meant: "'),
+    (r"(?i:true|false)", "true and false are written in small letters"),
+    (r"\"[^\"]*\\.*", "in double quotes a \\ is written twice; in single quotes, '...', it stands as it is"),
+    (r"\d{4}-\d\d?-\d\d?[T ].*|\d\d?:\d\d.*", "a time is written with its seconds: 2026-11-20T23:59:00+01:00"),
+    (r"\d\d?[./-]\d\d?[./-]\d+.*|\d{4}[./-]\d\d?[./-]\d\d?", "a day is written as 2026-11-20"),
+    (r"0\d+", "a number does not begin with 0"),
+    (r"-?\d+,\d+", "numbers have a point, as in 2.5"),
+    (r"\"[^\"]*|'[^']*", "the quote that ends it is missing"),
+    (r"\[[^\]]*", "the ] that ends the list is missing, or a comma in it"),
+    (r"[^\"'\[{].*", 'text stands in quotes: {key} = "{value}"'),
+)
+_NO_EQUALS = re.compile(rf"\s*({_KEY})(?::|\s)\s*[^\s=]")
+
+
+def _advice(line: str) -> str:
+    """The end of a sentence, or nothing."""
+    setting = _SETTING.match(line)
+    if setting is None:
+        unequal = _NO_EQUALS.match(line)
+        return f"; between a key and its value stands =, as in {unequal[1]} = ..." if unequal is not None else ""
+    value = re.sub(r"\s+#.*", "", line[setting.end() :]).strip()
+    found = next((words for pattern, words in _ADVICE if re.fullmatch(pattern, value)), "")
+    told = found.replace("{key}", setting[1]).replace("{value}", value.replace('"', "'"))
+    return f"; {shorten(told, _LONGEST)}" if told else ""
+
+
+def _said_twice(text: str) -> tuple[int, str] | None:
+    """The number of the first line with a key that stands above already, and the key."""
+    table, seen = "", set[tuple[str, str]]()
+    for number, line in enumerate(text.splitlines(), start=1):
+        header, setting = _HEADER.match(line), _SETTING.match(line)
+        table = header[1].strip() if header is not None else table
+        if setting is not None and (table, setting[1]) in seen:
+            return number, setting[1]
+        seen |= {(table, setting[1])} if setting is not None else set()
+    return None
+
+
+def _not_toml(text: str, error: tomllib.TOMLDecodeError) -> str:
+    """`LINE:COLUMN: is not TOML: why; what to write instead`."""
+    what, _, _ = str(error).partition(" (at ")
+    told = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
+    lines = text.splitlines() or [""]
+    twice = _said_twice(text) if what.startswith("Cannot overwrite") else None
+    if twice is not None:
+        return f"{twice[0]}:1: is not TOML: {twice[1]} stands there twice; keep one of them"
+    line, column = (int(told[1]), int(told[2])) if told is not None else (len(lines), len(lines[-1]) + 1)
+    advice = _advice(lines[min(line, len(lines)) - 1])
+    return f"{line}:{column}: is not TOML: {what[:1].lower()}{what[1:]}{advice}"
+
+
 def read_toml(text: str, name: str) -> dict[str, Any]:
     """What a person wrote, as a table; `name` is that of the file."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        what, _, _ = str(error).partition(" (at ")
-        told = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
-        lines = text.splitlines() or [""]
-        place = f"{told[1]}:{told[2]}" if told is not None else f"{len(lines)}:{len(lines[-1]) + 1}"
-        raise UsageError(f"{name}:{place}: is not TOML: {what[0].lower()}{what[1:]}") from error
+        raise UsageError(f"{name}:{_not_toml(text, error)}") from error
 
 
 # Tables of the kit in TOML. A bad one is the kit's fault.

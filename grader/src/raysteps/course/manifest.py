@@ -293,6 +293,7 @@ def earlier(step: Step, steps: Sequence[Step]) -> list[Step]:
 _RANGE = re.compile(r"([0-9]{1,2})[-\u2013]([0-9]{1,2})")
 # A step's folder or what is in it, as a shell completes it in the kit's folder or in steps/.
 _IN_STEPS = re.compile(r"(?!.*\.\.)(?:\.[/\\]+)?(?:steps[/\\]+)?([^/\\]+)(?:[/\\].*)?")
+_OTHER_RANGE = re.compile(r"all|\*|[0-9]*(?:[-\u2010-\u2015]+|\.\.+)[0-9]*")  # as other programs have them
 STEPS_HELP = "such as 1-4, 01 02 or 1,3"  # what `choose` takes
 
 
@@ -316,6 +317,8 @@ def _ids(steps: Sequence[Step], part: int) -> str:
 
 def _range(steps: list[Step], word: str, others: Sequence[Step]) -> list[Step]:
     ends = _RANGE.fullmatch(word)
+    if ends is None and _OTHER_RANGE.fullmatch(word):
+        raise UsageError(f"there is no step '{word}'; expected steps {STEPS_HELP}; where none is named, all are meant")
     if ends is None:
         return [_one(steps, word, others)]
     first, last = _one(steps, ends[1], others), _one(steps, ends[2], others)
