@@ -378,6 +378,21 @@ def test_help_tells_all_keys(pages: Watched, server: DeskServer) -> None:
     page.locator("#help").wait_for(state="hidden")
 
 
+def test_help_that_is_longer_than_the_screen_begins_at_its_beginning(pages: Watched, server: DeskServer) -> None:
+    page = _open(pages, server, "ann", width=360, height=640)
+    for key in ("?", ""):
+        if key:
+            _press(page, key)
+        else:
+            page.locator("#help-open").click()
+        _has_focus(page, "#help-title")
+        seen = page.locator("#help").evaluate("help => [help.scrollTop, help.scrollHeight > help.clientHeight]")
+        assert seen == [0, True]
+        _press(page, "Tab")
+        _has_focus(page, "#help button")
+        _press(page, "Escape")
+
+
 def test_without_a_name_nothing_is_written(pages: Watched, server: DeskServer) -> None:
     page = _open(pages, server, "ann")
     page.locator("#author").fill(" ")

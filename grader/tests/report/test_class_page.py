@@ -73,11 +73,16 @@ def test_on_a_phone_names_and_totals_stay_while_the_steps_scroll_by_keys(open_pa
     box.focus()
     page.keyboard.press("ArrowRight")
     assert page.evaluate("window.moved") > 0
+    head = box.locator("thead").bounding_box()
+    assert head is not None
     for column in (".who", ".total"):
         edges = box.locator(f"thead {column}").bounding_box()
         assert edges is not None
         assert edges["x"] >= 0
         assert edges["x"] + edges["width"] <= 390
+        assert edges["height"] >= head["height"] - 1, "no heading that scrolls below it looks out above it"
+    rows = box.locator("tbody tr").evaluate_all("all => all.map(one => one.getBoundingClientRect().height)")
+    assert all(height == round(height) for height in rows), "else a row covers the line of the one above"
     assert_no_sideways_scrolling(page)
 
 

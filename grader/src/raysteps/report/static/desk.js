@@ -26,6 +26,12 @@ const deskMarks = [
   ["comments", ({ comments }) => comments && counted(comments, "comment"), ""],
 ];
 
+/** From its beginning: where it is longer than the screen, the focus on its only button would show its end. */
+function openHelp() {
+  document.getElementById("help").showModal();
+  document.getElementById("help-title").focus();
+}
+
 class Desk {
   constructor() {
     this.rows = null;
@@ -343,7 +349,7 @@ class Desk {
     }
     const isOpen = this.view.view !== null;
     const acts = {
-      "?": () => document.getElementById("help").showModal(),
+      "?": openHelp,
       n: () => this.nextUnread(),
       j: () => (isOpen ? this.step(1) : this.move(1)),
       k: () => (isOpen ? this.step(-1) : this.move(-1)),
@@ -362,13 +368,12 @@ class Desk {
 
 function startDesk() {
   const desk = new Desk();
-  const help = document.getElementById("help");
   document
     .getElementById("help-keys")
     .append(
       ...deskKeys.map(([keys, words]) => make("div", {}, make("dt", {}, make("kbd", {}, keys)), make("dd", {}, words))),
     );
-  document.getElementById("help-open").addEventListener("click", () => help.showModal());
+  document.getElementById("help-open").addEventListener("click", openHelp);
   document.getElementById("author").addEventListener("input", ({ target }) => {
     sessionStorage.setItem("desk-author", target.value);
   });
