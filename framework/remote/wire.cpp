@@ -220,6 +220,9 @@ void Wire::resume(std::size_t number) {
 // does the same.
 void Wire::exchange() {
     if (outgoing_.size() > sizeof(BatchSize)) {
+        if (outgoing_.size() - sizeof(BatchSize) > k_max_batch) {
+            end(k_too_long, "an answer is too long");
+        }
         const auto size = static_cast<BatchSize>(outgoing_.size() - sizeof(BatchSize));
         std::memcpy(outgoing_.data(), &size, sizeof size);
         write_all(outgoing_);
@@ -247,7 +250,7 @@ std::string_view Wire::read_batch() {
         if (have >= sizeof size) {
             std::memcpy(&size, incoming_.data(), sizeof size);
             if (size > k_max_batch) {
-                end(k_broken, "a message is too long");
+                end(k_too_long, "an answer is too long");
             }
             incoming_.resize(std::max(incoming_.size(), sizeof size + size));
         }

@@ -68,10 +68,11 @@ public:
     using Service = void (*)(Wire& wire, std::string_view question);
 
     /// Ends the program with its exit code, since there is nobody left to talk to: the other end is gone, sent what no
-    /// stand-in sends, or asks back without end.
+    /// stand-in sends, asks back without end, or has more to say at once than a batch holds.
     static constexpr int k_closed = 70;
     static constexpr int k_broken = 71;
     static constexpr int k_endless = 72;
+    static constexpr int k_too_long = 73;
     using Farewell = void (*)(int code, const char* why);
 
     static constexpr std::size_t k_max_conversations = 1024;

@@ -212,6 +212,23 @@ TEST_CASE("a program takes from a box only what it can be waiting for", "[remote
     CHECK(ending_with({{0, static_cast<Kind>(9)}}) == Wire::k_broken);
 }
 
+TEST_CASE("what is too long for a batch is told as such at either end", "[remote]") {
+    constexpr std::size_t k_too_much = (std::size_t{128} << 20U) + 1;
+    Wire box(Wire::End::box, {-1, -1}, sum_up, hang_up);
+    box.send(Kind::answer, [](std::string& bytes) { bytes.append(k_too_much, 'x'); });
+    CHECK(ending_of([&] { static_cast<void>(box.wait_for_answer()); }) == Wire::k_too_long);
+
+    std::array<int, 2> in{};
+    REQUIRE(pipe(in.data()) == 0);
+    const auto announced = static_cast<std::uint32_t>(k_too_much);
+    REQUIRE(write(in[1], &announced, sizeof announced) == sizeof announced);
+    Wire home(Wire::End::home, {in[0], -1}, sum_up, hang_up);
+    CHECK(ending_of([&] { static_cast<void>(home.wait_for_answer()); }) == Wire::k_too_long);
+    for (const int file : in) {
+        close(file);
+    }
+}
+
 TEST_CASE("what a box's own conversations count is somebody's", "[remote]") {
     const auto tested = [](Wire& wire, std::string_view /*question*/) {
         ++thread_stats().surface_tests;

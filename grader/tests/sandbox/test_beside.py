@@ -64,10 +64,20 @@ def test_what_it_tells_of_the_wire_ends_the_step(any_sandbox: Sandbox, hostile: 
     assert "something else than the step's functions" in ran.outcome.stderr
 
 
-def test_functions_without_an_end_are_told_of_whoever_sees_them(any_sandbox: Sandbox, hostile: Path) -> None:
-    box = ("/usr/bin/env", "sh", "-c", "exit 72")
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        (72, "the functions called each other without an end"),
+        (73, "an answer of the step's functions was longer than 128 MB"),
+    ],
+)
+def test_an_end_of_the_wire_is_told_of_whoever_sees_it(
+    any_sandbox: Sandbox, hostile: Path, code: int, said: str
+) -> None:
+    box = ("/usr/bin/env", "sh", "-c", f"exit {code}")
     ran = any_sandbox.run(Task(box, _LIMITS, tools=True, beside=Beside((Input(hostile), "code", "70"))))
-    assert (ran.outcome.code, ran.outcome.stderr) == (1, "the functions called each other without an end")
+    assert (ran.outcome.code, ran.outcome.stderr) == (1, said)
+    assert _ask(any_sandbox, hostile, "code", str(code)).outcome.stderr == said
 
 
 def test_an_ending_that_it_does_not_have_is_the_kits_fault(any_sandbox: Sandbox, hostile: Path) -> None:
