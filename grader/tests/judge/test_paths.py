@@ -98,6 +98,15 @@ def _samples(weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0, power
     return _line(rows)
 
 
+@pytest.mark.filterwarnings("error")  # of NumPy, whose words would stand on the terminal of whoever grades
+@pytest.mark.parametrize("odd", ["inf", "-inf", "3.4028235e38", "1e-45"])
+def test_odd_numbers_are_wrong_without_another_word(odd: str) -> None:
+    line = " ".join(word if index % 9 in (0, 8) else odd for index, word in enumerate(_samples().split()))
+    problem = _verdict(_FUNCTIONS["scatter_diffuse"], _SCATTER, _samples(), line)
+    assert problem
+    assert "no proper answer" not in problem
+
+
 @pytest.mark.parametrize(
     ("line", "said"),
     [

@@ -5,6 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+import numpy as np
+
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import printable, shorten
 from raysteps.common.vectors import Vector, dot, length, minus
@@ -118,12 +120,13 @@ class Answer(Generic[T]):
                 right=right,
             )
         try:
-            actual = self.parse(actual_line)
-            problem = self.problem(inputs, expected, actual)
-            problem = problem and (_no_number_said(problem, reference.line, actual_line) or problem)
-            credit = self.credit(inputs, expected, actual) if problem else 1.0
-            given = self.near(actual) if self.near is not None else None
-            return Verdict(problem, shown, self.words(actual), credit, constant, right, given)
+            with np.errstate(all="ignore"):  # numbers that are none are wrong, and nothing for a terminal
+                actual = self.parse(actual_line)
+                problem = self.problem(inputs, expected, actual)
+                problem = problem and (_no_number_said(problem, reference.line, actual_line) or problem)
+                credit = self.credit(inputs, expected, actual) if problem else 1.0
+                given = self.near(actual) if self.near is not None else None
+                return Verdict(problem, shown, self.words(actual), credit, constant, right, given)
         except GraderFault:
             raise
         except Exception as error:  # the reference's answer was read just so: this is about the student's
