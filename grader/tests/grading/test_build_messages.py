@@ -151,6 +151,11 @@ def test_places_as_windows_writes_them(shadows: Step, output: str, place: str) -
             ran("g++: internal compiler error: File size limit exceeded signal terminated program as\nSee <file:///x>"),
             "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?",
         ),
+        (
+            ran("/usr/bin/ld: step.o: in function `f()':\nshadows.cpp:(.text+0x8): relocation truncated to fit: R_X86"),
+            "It does not build: its variables take more than 2 GB. Is there a huge array?",
+        ),
+        (ran("/in/1/shadow_ray.cpp:8: error: no"), "It does not build: shadow_ray.cpp:8: no"),
         (ran(""), "It does not build: the compiler gave up and said nothing."),
         (ran("", stopped="memory"), "It does not build: the compiler needed more memory than it may have."),
     ],

@@ -14,7 +14,8 @@ from raysteps.toolchain.kit_artifacts import BuiltKit, function_name
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
 _MAX_MORE = 3  # errors that are told in a line each, besides the first
-_PLACE = r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7}):(?P<column>\d{1,7}):"
+# GCC counts no columns in a line that is too long.
+_PLACE = r"^(?P<path>(?:[A-Za-z]:)?[^\s:][^:\n]*):(?P<line>\d{1,7})(?::(?P<column>\d{1,7}))?:"
 _ERROR = re.compile(_PLACE + r" (?:fatal )?error: (?P<text>.+)$", re.M)
 _CAUSE = re.compile(_PLACE + r"(?:   required from here| note: in instantiation of )", re.M)  # of an error in a header
 _MICROSOFT_ERROR = re.compile(
@@ -172,6 +173,8 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         return text
     if "File size limit exceeded" in output:
         return "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?"
+    if "relocation truncated to fit" in output:
+        return "It does not build: its variables take more than 2 GB. Is there a huge array?"
     lines = [line for line in output.splitlines() if line.strip() and not _LAST_WORDS.search(line)]
     telling = [line for line in lines if re.search("error:|terminated|Error", line)]
     said = shorten("".join(telling[-1:] or lines[:1]), 300)
