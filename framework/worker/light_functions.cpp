@@ -111,8 +111,9 @@ void ask_transmitted_light(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_hit(words);
     const int depth = words.whole();
     Script script;
-    script.max_depth = 7;  // as the judge says it: a ray of that depth is still followed
+    script.max_depth = words.whole();
     script.traced = words.vector();
+    script.background = {0.25F, 0.5F, 0.75F};  // which is not what a ray through glass brings
     TracerCalls calls;
     ScriptedTracer tracer(script, calls);
     answer.vector(transmitted_light(tracer, hit, depth));

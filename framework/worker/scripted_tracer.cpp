@@ -20,7 +20,8 @@ std::optional<HitRecord> ScriptedTracer::closest_hit(const Ray& ray) const {
     const ScriptedHit& scripted = script_.hits[number];
     HitRecord hit;
     hit.position = ray.origin + scripted.distance * ray.direction;
-    hit.fill.color = scripted.local;  // what is mirrored keeps its hue, whatever the colour of the mirror
+    // What is mirrored keeps its hue, whatever the colour of the mirror; and that is not the light which it sends.
+    hit.fill.color = {scripted.local.g, scripted.local.b, scripted.local.r};
     hit.fill.ks = scripted.ks;
     // Nothing else about the surface matters to what it mirrors, so all of it changes from hit to hit.
     const float varied = scripted.distance - std::floor(scripted.distance);

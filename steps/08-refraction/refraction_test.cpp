@@ -179,6 +179,8 @@ TEST_CASE("transmitted_ray: a ray through a plate leaves as it came", "[08-refra
 
 TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refraction][transmitted_light]") {
     FakeTracer tracer;
+    tracer.max_depth = 12;
+    tracer.background_color = {0.1F, 0.2F, 0.3F};
     tracer.on_trace = [](const Ray&, int) { return Color(0.8F, 0.4F, 0.2F); };
     const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
     CHECK_THAT(transmitted_light(tracer, hit, 3), IsNear({0.4F, 0.2F, 0.1F}));
@@ -188,6 +190,9 @@ TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refrac
     CHECK_THAT(tracer.traced[0].ray.direction, IsNear({0.471405F, 0.0F, -0.881917F}));
     INFO("the deepest ray that may be followed is sent, too");
     CHECK_THAT(transmitted_light(tracer, hit, tracer.max_ray_depth() - 1), IsNear({0.4F, 0.2F, 0.1F}));
+    INFO("a deeper one brings nothing, not even the background");
+    tracer.on_trace = [](const Ray&, int) { return k_black; };
+    CHECK_THAT(transmitted_light(tracer, hit, tracer.max_ray_depth()), IsNear(k_black));
 }
 
 TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][transmitted_light]") {

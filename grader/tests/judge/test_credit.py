@@ -15,8 +15,9 @@ def _line(*vectors: Vector) -> str:
     return " ".join(text(x) for vector in vectors for x in vector)
 
 
-def _cases(step: str, function: str, amount: int = 20) -> list[Case]:
-    group, draw = functions_of(step)[function].groups[0], RandomSource("credit")
+def _cases(step: str, function: str, amount: int = 20, kind: str = "") -> list[Case]:
+    known, draw = functions_of(step)[function], RandomSource("credit")
+    group = known.by_name[kind] if kind else known.groups[0]
     return [Case(function, group.name, group.make(draw)) for _ in range(amount)]
 
 
@@ -58,6 +59,18 @@ def test_light_through_glass() -> None:
         assert _credit("08", case, right, f"{_line(other)} 1 {_line(at, ray[1])} 2") == 0.5
         assert _credit("08", case, right, f"{_line(other)} 1 {_line(at, ray[1])} 3") == 0
         assert _credit("08", case, right, f"{_line(other)} 1 {_line((900.0, 0.0, 0.0), ray[1])} 2") == 0
+
+
+def test_glass_past_the_depth_limit() -> None:
+    """A ray that is too deep to bring anything may be sent or spared, but not be taken for one that sees the sky."""
+    ray = ((0.0, 0.0, 0.0), (0.0, 0.0, -1.0))
+    for case in _cases("08", "transmitted_light", kind="past the depth limit"):
+        black, sky, sent = (0.0, 0.0, 0.0), (0.2, 0.4, 0.6), _line(hit_of(case.inputs).position, ray[1])
+        right = f"{_line(black)} 1 {sent} 2"
+        assert _credit("08", case, right, right) == 1
+        assert _credit("08", case, right, f"{_line(black)} 0") == 1
+        assert _credit("08", case, right, f"{_line(black)} 2 {sent} 2 {sent} 2") == 0.5
+        assert _credit("08", case, right, f"{_line(sky)} 0") < 1
 
 
 def test_a_sample_that_only_says_what_it_is() -> None:

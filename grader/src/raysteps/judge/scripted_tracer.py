@@ -24,7 +24,7 @@ class ScriptedHit:
     def words(self) -> str:
         return (
             f"a hit at {text(self.distance)} with normal {vector_words(self.normal)}, ks {text(self.ks)}, "
-            f"local light {vector_words(self.local)}"
+            f"local light {vector_words(self.local)}, colour {vector_words((*self.local[1:], self.local[0]))}"
         )
 
 

@@ -283,6 +283,14 @@ def _matt(draw: RandomSource) -> Inputs:
     return _lights(draw, replace(hit, fill=replace(hit.fill, ks=0.0)), draw.whole(1, 4))
 
 
+def _polished(draw: RandomSource) -> Inputs:
+    """Nothing but wide highlights: without kd, or of a black that only its highlights leave."""
+    hit = _hit(draw)
+    fill = replace(hit.fill, shine=draw.real(1, 3))
+    fill = replace(fill, kd=0.0) if draw.chance(0.5) else replace(fill, color=(0.0, 0.0, 0.0))
+    return _lights(draw, replace(hit, fill=fill), draw.whole(2, 4), low=0.3)
+
+
 def _bright(draw: RandomSource) -> Inputs:
     hit = _hit(draw)
     hit = replace(hit, fill=replace(hit.fill, color=draw.color(0.7, 1.0), kd=1.0))
@@ -296,6 +304,7 @@ SHADE = Function(
         Group("several lights", lambda d: _lights(d, _hit(d), d.whole(2, 4))),
         Group("simple numbers", _simple_shade),
         Group("matt surfaces", _matt),
+        Group("polished surfaces", _polished),
         Group("one light", lambda d: _lights(d, _hit(d), 1)),
         Group("many lights", lambda d: _lights(d, _hit(d), d.whole(9, 40))),
         Group("lights in front and behind", _front_and_back),

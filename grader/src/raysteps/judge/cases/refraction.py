@@ -206,6 +206,8 @@ def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> st
 
 
 def _traced_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str:
+    if _is_past_the_limit(inputs) and not actual.traced:
+        return ""
     if len(expected.traced) != len(actual.traced):
         return f"too {'many' if len(actual.traced) > len(expected.traced) else 'few'} rays were traced"
     hit = hit_of(inputs)
@@ -226,13 +228,39 @@ def _brought_credit(inputs: Inputs, expected: _Brought, actual: _Brought) -> flo
     return 0.5 if expected.traced and not _traced_problem(inputs, expected, actual) else 0.0
 
 
-_DEEPEST = 7  # the worker's max_ray_depth
+def _brings(hit: Hit, depth: int, most: int, traced: Vector) -> Inputs:
+    return {"hit": hit, "depth": Whole(depth), "max_ray_depth": Whole(most), "traced": Vec(traced)}
 
 
-def _light(draw: RandomSource, hit: Hit, lowest: int = 1) -> Inputs:
-    """The ray that goes on is one deeper, and always one that is still followed."""
-    depth = Whole(draw.whole(lowest, _DEEPEST - 1))
-    return {"hit": hit, f"depth, where max_ray_depth is {_DEEPEST}": depth, "traced": Vec(draw.color())}
+def _light(draw: RandomSource, hit: Hit) -> Inputs:
+    """The ray that goes on is one deeper, and one that is still followed."""
+    most = draw.whole(2, 12)
+    return _brings(hit, draw.whole(1, most - 1), most, draw.color())
+
+
+def _deepest(draw: RandomSource) -> Inputs:
+    most = draw.whole(2, 12)
+    return _brings(random_hit(draw), most - 1, most, draw.color())
+
+
+def _past_the_limit(draw: RandomSource) -> Inputs:
+    """The ray that goes on is one too deep. It brings nothing, and who knows that need not send it."""
+    most = draw.whole(1, 12)
+    return _brings(random_hit(draw), most, most, (0.0, 0.0, 0.0))
+
+
+def _is_past_the_limit(inputs: Inputs) -> bool:
+    depth, most = inputs["depth"], inputs["max_ray_depth"]
+    assert isinstance(depth, Whole)
+    assert isinstance(most, Whole)
+    return depth.value >= most.value
+
+
+def _bright(draw: RandomSource) -> Inputs:
+    hit = random_hit(draw)
+    hit = replace(hit, fill=replace(hit.fill, transmittance=draw.real(0.6, 1.0)))
+    most = draw.whole(2, 12)
+    return _brings(hit, draw.whole(1, most - 1), most, draw.color(2.0, 9.0))
 
 
 def _faint(draw: RandomSource) -> Inputs:
@@ -259,7 +287,9 @@ TRANSMITTED_LIGHT = Function(
             lambda d: _light(d, hit_on_glass(d, index_of_glass(d), outside=False, total=True)),
         ),
         Group("hardly and wholly clear", _faint),
-        Group("the deepest ray", lambda d: _light(d, random_hit(d), _DEEPEST - 1)),
+        Group("brighter than 1", _bright),
+        Group("the deepest ray", _deepest),
+        Group("past the depth limit", _past_the_limit),
         Group("not of glass", _not_glass),
     ),
 )

@@ -85,8 +85,8 @@ def _bright_byte(draw: RandomSource) -> Inputs:
 
 
 def _beside_step(draw: RandomSource) -> Inputs:
-    """A little below or above the border between two bytes."""
-    return _byte(f32((draw.whole(0, 254) + 0.5 + draw.sign() * draw.real(0.02, 0.05)) / 255))
+    """A little below or above the border between two bytes, ten times as far as float errs and more."""
+    return _byte(f32((draw.whole(0, 254) + 0.5 + draw.sign() * draw.logarithmic(0.0005, 0.05)) / 255))
 
 
 _LARGEST = 3.4028234663852886e38
