@@ -1,6 +1,7 @@
 """Cases of step 09: the area of a box, what a cut costs, scenes of which a tree is built, and searches through it."""
 
 import math
+from dataclasses import replace
 from functools import partial
 
 from raysteps.common.vectors import Vector, add, minus, unit
@@ -354,6 +355,20 @@ def _several_distances(draw: RandomSource) -> RaysInScene:
     return tuple(surfaces), (Ray(draw.point(5), draw.direction()),)
 
 
+def _very_near(draw: RandomSource) -> RaysInScene:
+    """No hit is too near to count."""
+    nearest = 2.0 ** -draw.whole(7, 12)
+    surfaces = [Scripted(distance) for distance in (nearest, *(draw.eighths(4, 9) for _ in range(draw.whole(3, 9))))]
+    surfaces.sort(key=lambda _: draw.fine(0, 1))
+    return tuple(surfaces), (Ray(draw.point(5), draw.direction()),)
+
+
+def _towards_glass(draw: RandomSource) -> RaysInScene:
+    """What is clear hides what is behind it like anything else."""
+    surfaces, rays = aimed_ray(draw)
+    return tuple(replace(one, glass=True) if isinstance(one, Sphere) else one for one in surfaces), rays
+
+
 def _out_of_the_shell(draw: RandomSource) -> RaysInScene:
     """From among the little things, past the ground or onto it."""
     return large_and_small(draw), (Ray(draw.point(4), draw.slanted()),)
@@ -383,6 +398,8 @@ OCCLUDED_IN_BVH = Function(
             _occluded(_several_distances, _of_the_first(1), own=0.3),
             exact=True,
         ),
+        Group("a hit very near", _occluded(_very_near, between(0.1, 3), own=0.3)),
+        Group("glass", _occluded(_towards_glass, BEYOND_THE_FIRST)),
         Group("as far as it may be", _occluded(aimed_ray, fixed(math.inf))),
         Group("from inside", _occluded(from_inside, BEYOND_THE_FIRST)),
         Group("along an axis", _occluded(along_axis, BEYOND_THE_FIRST)),
