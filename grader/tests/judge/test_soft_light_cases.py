@@ -116,6 +116,39 @@ def test_one_point_for_all_is_no_sample() -> None:
     assert _problem(_FUNCTIONS["sample_triangle"], inputs, rows + 9.0) == off
 
 
+def _of_a_triangle(x: Numbers, y: Numbers) -> str:
+    """What is said of points with these shares of the two sides at the first corner."""
+    inputs = _inputs("sample_triangle", "many samples")
+    a, b, c = (np.array(inputs[name].numbers()) for name in ("a", "b", "c"))
+    rows = _triangle_samples(inputs, np.full((len(x), 2), 0.5))
+    rows[:, :3] = a + x[:, None] * (b - a) + y[:, None] * (c - a)
+    return _problem(_FUNCTIONS["sample_triangle"], inputs, rows)
+
+
+def test_points_beyond_a_triangle_are_told_by_where_they_lie() -> None:
+    x, y = np.random.default_rng(12).random((2, 2048))
+    outside = x + y > 1
+    in_its_plane = "a point lies in the triangle's plane, but beyond "
+    assert "beyond" not in _of_a_triangle(np.where(outside, 1 - x, x), np.where(outside, 1 - y, y))
+    assert _of_a_triangle(x, y) == in_its_plane + "a side"
+    folded = in_its_plane + "one half of the side opposite to its first corner"
+    assert _of_a_triangle(np.where(outside, 1 - x, x), y) == folded
+    assert _of_a_triangle(x, np.where(outside, 1 - y, y)) == folded
+
+
+def test_a_disk_that_stands_upright_on_its_place_is_told() -> None:
+    inputs = _inputs("sample_disk", "many samples")
+    center, normal = (np.array(inputs[name].numbers()) for name in ("center", "normal"))
+    side = np.array(unit(cross(tuple(normal), (0.6, 0.0, 0.8))))
+    points = real_of(inputs, "radius") * _disk(np.sqrt(np.linspace(0.001, 0.99, 2048)), np.arange(2048) / 10)
+    off = "the points lie around the disk's centre, but not in its plane"
+    slanting = 0.8 * np.cross(normal, side) + 0.6 * normal
+    for second, said in ((normal, f"{off}, in one that stands upright on it"), (slanting, off)):
+        places = center + points[:, :1] * side + points[:, 1:] * second
+        rows = np.hstack([places, np.tile(normal, (2048, 1)), np.ones((2048, 1))])
+        assert _problem(_FUNCTIONS["sample_disk"], inputs, rows) == said
+
+
 def test_a_wrong_density_leaves_right_points_a_part_of_their_credit() -> None:
     inputs = _inputs("sample_triangle", "a few samples")
     rows = _triangle_samples(inputs, np.random.default_rng(3).random((8, 2)), factor=0.5)

@@ -401,6 +401,20 @@ def _sample_answer(problems: _Problems) -> Answer[_Draws]:
     return Answer(_reader(7), _words_of_draws, problem, credit, is_drawn=True)
 
 
+def _beyond(of_b: Numbers, of_c: Numbers) -> str:
+    """In words, of points of which some lie beside the triangle: what came of two numbers of which one was turned round
+    lies in one of the two halves beyond the side opposite to the first corner."""
+    beyond = of_b + of_c > 1
+    halves = (of_c > of_b)[beyond]
+    is_folded = len(halves) >= _SOME and len(np.unique(halves)) == 1
+    if is_folded and min(float(of_b.min()), float(of_c.min())) > -1e-3:
+        return "in the triangle's plane, but beyond one half of the side opposite to its first corner"
+    return "in the triangle's plane, but beyond a side"
+
+
+_SOME = 8  # so few points might lie in one half by chance, one time in a hundred
+
+
 def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     a, b, c = (np.array(vec_of(inputs, name)) for name in "abc")
     across = np.cross(b - a, c - a)
@@ -413,11 +427,18 @@ def _triangle_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     aside = float(np.abs(spokes @ normal).max()) > 1e-3 * size
     beyond = min(float(of_b.min()), float(of_c.min()), float((1 - of_b - of_c).min())) < -1e-3
     away = np.maximum(of_b + of_c, 1e-12)
-    place = "above or below the triangle, not in its plane" if aside else "in the triangle's plane, but beyond a side"
+    place = "above or below the triangle, not in its plane" if aside else _beyond(of_b, of_c)
     position = _where(f"a point lies {place}", spokes) if aside or beyond else ""
     position = position or _evenness(inputs, _TRIANGLE, _shares(away**2, of_c / away))
     density = _density_problem(_area_density(inputs, doubled / 2, normal, actual), actual)
     return position, _normal_problem(normal, actual), density
+
+
+def _other_plane(spokes: Numbers, normal: Numbers) -> str:
+    """In words, of points that lie in a plane other than the disk's: one in which the disk's normal lies."""
+    *_, across = np.linalg.svd(spokes, full_matrices=False)[2]
+    upright = float(np.abs(spokes @ across).max()) < 1e-3 and abs(float(across @ normal)) < 1e-3
+    return ", in one that stands upright on it" if upright else ""
 
 
 def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
@@ -428,7 +449,7 @@ def _disk_light_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]
     squares = of_x**2 + of_y**2
     aside = float(np.abs(spokes @ z).max()) > 1e-3
     if aside and float((spokes**2).sum(axis=1).max()) <= 1 + 2e-3:
-        position = "the points lie around the disk's centre, but not in its plane"
+        position = f"the points lie around the disk's centre, but not in its plane{_other_plane(spokes, z)}"
     elif aside or float(squares.max()) > 1 + 2e-3:
         position = _where("a point lies off the disk" if aside else "a point lies beyond the disk's rim", spokes)
     else:
