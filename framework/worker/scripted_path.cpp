@@ -29,6 +29,8 @@ ScriptedPathHit read_path_hit(TokenReader& words) {
     hit.light = words.vector();
     if (words.flag()) {
         hit.sample = read_scatter(words);
+        // Behind the first hit as high as that of rough metal: only the flag tells what is specular.
+        hit.sample->pdf = hit.sample->specular ? 1.0F : hit.distance > 2.0F ? hit.distance : 0.0F;
     }
     return hit;
 }

@@ -235,10 +235,13 @@ def _visible(draw: RandomSource, view: Vector, amount: int = 2048) -> Inputs:
 
 
 def _nearly_smooth(draw: RandomSource) -> Inputs:
-    """A slanting view that is nearly straight from above where the surface is stretched to a half sphere."""
-    alpha, tangent = _alpha(draw, 0.03, 0.1), draw.fine(0.1, 0.14)
-    cosine = 1 / math.hypot(1, tangent / alpha.value)
-    return {"view": Vec(draw.above(_UP, cosine, cosine)), "alpha": alpha, **draws(draw, 32_768)}
+    """A slanting view that is nearly straight from above where the surface is stretched to a half sphere. It leans
+    between x and y: a frame that holds one of these two, whichever it is, is not at right angles."""
+    alpha, tangent = _alpha(draw, 0.03, 0.1), draw.fine(0.12, 0.141)
+    turn = math.radians(draw.sign() * draw.fine(35, 55))
+    across = tangent / alpha.value
+    view = rounded(unit((across * math.cos(turn), across * math.sin(turn), 1.0)))
+    return {"view": Vec(view), "alpha": alpha, **draws(draw, 32_768)}
 
 
 _SAMPLE_VISIBLE_NORMAL = Function(
