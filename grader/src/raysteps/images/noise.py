@@ -96,7 +96,7 @@ def samples_of(args: tuple[str, ...]) -> int:
 
 def with_samples(args: tuple[str, ...], factor: int) -> tuple[str, ...]:
     """The arguments of the same picture with `factor`, a square, times as many samples, drawn from another seed."""
-    return (*with_option(args, "--samples", str(factor * samples_of(args))), "--seed", "11")
+    return with_option(with_option(args, "--samples", str(factor * samples_of(args))), "--seed", "11")
 
 
 def as_picture(light: Light) -> Pixels:
