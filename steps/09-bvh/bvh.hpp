@@ -29,7 +29,7 @@ inline constexpr int k_max_bvh_levels = 64;
 
 /// The tree over all surfaces. Every surface is in exactly one leaf. The box of a node holds the boxes of its
 /// children, and that of a leaf the bounds of its surfaces. No surfaces: no nodes.
-/// How the surfaces are divided is yours to choose; in a scene of many, leaves hold 8 or fewer.
+/// How the surfaces are divided is yours to choose; in a scene of many, leaves hold few of them.
 [[nodiscard]] Bvh build_bvh(const SurfaceList& surfaces);
 
 /// The same answer as closest_hit over all surfaces of the tree, with fewer tests: of two hits at the same distance the
