@@ -221,7 +221,7 @@ void Wire::resume(std::size_t number) {
 void Wire::exchange() {
     if (outgoing_.size() > sizeof(BatchSize)) {
         if (outgoing_.size() - sizeof(BatchSize) > k_max_batch) {
-            end(k_too_long, "an answer is too long");
+            end(k_too_long, "what was to be said at once is too long");
         }
         const auto size = static_cast<BatchSize>(outgoing_.size() - sizeof(BatchSize));
         std::memcpy(outgoing_.data(), &size, sizeof size);
@@ -249,8 +249,8 @@ std::string_view Wire::read_batch() {
         have += static_cast<std::size_t>(got);
         if (have >= sizeof size) {
             std::memcpy(&size, incoming_.data(), sizeof size);
-            if (size > k_max_batch) {
-                end(k_too_long, "an answer is too long");
+            if (size > k_max_batch) {  // no end of ours sends that: mostly it is text
+                end(k_broken, "a message is too long");
             }
             incoming_.resize(std::max(incoming_.size(), sizeof size + size));
         }

@@ -212,7 +212,7 @@ TEST_CASE("a program takes from a box only what it can be waiting for", "[remote
     CHECK(ending_with({{0, static_cast<Kind>(9)}}) == Wire::k_broken);
 }
 
-TEST_CASE("what is too long for a batch is told as such at either end", "[remote]") {
+TEST_CASE("what is too long for a batch is not sent, and text is no batch", "[remote]") {
     constexpr std::size_t k_too_much = (std::size_t{128} << 20U) + 1;
     Wire box(Wire::End::box, {-1, -1}, sum_up, hang_up);
     box.send(Kind::answer, [](std::string& bytes) { bytes.append(k_too_much, 'x'); });
@@ -220,10 +220,10 @@ TEST_CASE("what is too long for a batch is told as such at either end", "[remote
 
     std::array<int, 2> in{};
     REQUIRE(pipe(in.data()) == 0);
-    const auto announced = static_cast<std::uint32_t>(k_too_much);
-    REQUIRE(write(in[1], &announced, sizeof announced) == sizeof announced);
+    constexpr std::string_view k_text = "hello\n";
+    REQUIRE(write(in[1], k_text.data(), k_text.size()) == static_cast<ssize_t>(k_text.size()));
     Wire home(Wire::End::home, {in[0], -1}, sum_up, hang_up);
-    CHECK(ending_of([&] { static_cast<void>(home.wait_for_answer()); }) == Wire::k_too_long);
+    CHECK(ending_of([&] { static_cast<void>(home.wait_for_answer()); }) == Wire::k_broken);
     for (const int file : in) {
         close(file);
     }

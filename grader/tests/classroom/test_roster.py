@@ -45,9 +45,10 @@ def test_headers_are_tolerant(tmp_path: Path, text: str) -> None:
             "id,submision,name",
             "column 'submision' (is it submission?); read are id, name, first name, last name, email",
         ),
-        ("id,name,Vornam", "column 'Vornam' (is it first name?); read are"),
+        ("id,Last Name,Vornam", "column 'Vornam' (is it first name?); read are"),
+        ("id,name,date,Name 2,Late,Late", "columns 'Name 2' and 'Late'; read are"),
         ("id,name,Section,Grade", "columns 'Section' and 'Grade'; read are"),
-        ("id,abcd,bcde,cdef,defg,efgh,fghi,ghij", "'efgh' and 2 more; read are"),
+        ("id,abcd,bcde,cdef,defg,efgh,fghi,Submision", "'Submision' (is it submission?), 'abcd', 'bcde'"),
     ],
 )
 def test_a_column_that_is_passed_over_is_told(tmp_path: Path, header: str, told: str | None) -> None:

@@ -98,6 +98,12 @@ percent_per_day = 10
         ("seed = ", ":1:8: is not TOML: .*; nothing stands behind the ="),
         ("[late_policy]\ndeadline = 20.11.2026", ":2:17: is not TOML: .*; a day is written as 2026-11-20"),
         ("[late_policy]\ndeadline = 2026-11-20 23:59", ":2:23: is not TOML: .*; a time is written with its seconds"),
+        ("[late_policy]\npercent_per_day = 10%", ":2:21: is not TOML: .*; a number stands alone, such as 10 or 2.5"),
+        (
+            'steps = [\n"1",\n"2"\nseed = 5',
+            ":4:1: is not TOML: .*; the ] that ends the list is missing, or a comma in it",
+        ),
+        ('[points]\n"01" = 1\n01 = 2', ":3:1: is not TOML: 01 stands there twice; keep one of them"),
         ('title = ""', ":1:1: title: expected the name of the course"),
         ("steps = [1, true]", ":1:1: steps: expected steps such as"),
         ('[steps]\n"1-2" = 2026-10-12\n"3" = "soon"', ":3:1: steps: expected steps such as"),
@@ -114,6 +120,13 @@ def test_a_bad_file_is_refused_with_the_place_of_what_is_wrong(
     place.write_text(text)
     said = ".*".join(map(re.escape, words.split(".*")))
     with pytest.raises(UsageError, match=f"^{re.escape(str(place))}{said}"):
+        read_course(Project(tmp_path))
+
+
+@pytest.mark.parametrize("text", ["seed = 2026-11-31", 'title = """x\nseed = 5', "late policy = 5", "-- comment", "seed = -"])
+def test_where_nobody_knows_what_was_meant_nothing_is_advised(tmp_path: Path, place: Path, text: str) -> None:
+    place.write_text(text)
+    with pytest.raises(UsageError, match=r"is not TOML: [^;]+$"):
         read_course(Project(tmp_path))
 
 

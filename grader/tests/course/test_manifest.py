@@ -100,7 +100,7 @@ def test_an_unknown_step_is_refused(steps: list[Step], name: str) -> None:
 
 @pytest.mark.parametrize("name", ["all", "*", "6-", "\u20134", "1..4", "-"])
 def test_who_writes_steps_as_elsewhere_is_told_how_they_are_written(steps: list[Step], name: str) -> None:
-    with pytest.raises(UsageError, match=r"expected steps such as 1-4, 01 02 or 1,3; where none is named, all"):
+    with pytest.raises(UsageError, match=r"expected steps such as 1-4, 01 02 or 1,3$"):
         choose(steps, [name])
 
 

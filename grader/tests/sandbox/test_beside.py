@@ -68,7 +68,7 @@ def test_what_it_tells_of_the_wire_ends_the_step(any_sandbox: Sandbox, hostile: 
     ("code", "said"),
     [
         (72, "the functions called each other without an end"),
-        (73, "an answer of the step's functions was longer than 128 MB"),
+        (73, "the answers of the step's functions were longer than 128 MB at once"),
     ],
 )
 def test_an_end_of_the_wire_is_told_of_whoever_sees_it(

@@ -54,7 +54,7 @@ def test_a_copied_program_runs_whatever_starts_at_that_moment() -> None:
         others = [pool.submit(start_others) for _ in range(4)]
         try:
             for _ in range(400):
-                subprocess.run([place.copied(program, "own", to_run=True)], check=True)
+                subprocess.run([place.copied(program, program.name, to_run=True)], check=True)
         finally:
             done.set()
         for other in others:

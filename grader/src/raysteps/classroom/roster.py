@@ -4,7 +4,7 @@ import csv
 import io
 import re
 import unicodedata
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -28,6 +28,7 @@ _HEADERS = {
     "repository": ("repository", "repositoryurl", "studentrepositoryurl", "repo", "repourl", "giturl"),
     "submitted_at": ("submittedat", "submitted", "submissiontime", "submissiondate", "timestamp", "time", "date"),
 }
+_OF_A_NAME = ("name", "first", "last")
 _TYPED = {"first": "first name", "last": "last name"}  # headers that are not called as the columns are here
 _MAX_BYTES = 16 << 20
 _MAX_NAMED = 5  # columns that nobody knows
@@ -74,18 +75,21 @@ def _typed(column: str) -> str:
     return _TYPED.get(column, column)
 
 
-def _unknown_columns(header: list[str], path: Path) -> str:
-    """What to tell of columns that are passed over, such as one with a slip of the pen; nothing where there is none."""
-    owners = {name: column for column, names in _HEADERS.items() for name in names}
-    unknown = [cell for cell in header if _plain_header(cell) and _plain_header(cell) not in owners]
+def _unknown_columns(header: list[str], found: Collection[str], path: Path) -> str:
+    """What to tell of columns that are passed over, those first that may be one of those not `found`, with a slip of
+    the pen; nothing where there is none."""
+    names = {name for some in _HEADERS.values() for name in some}
+    unknown = [cell for cell in dict.fromkeys(header) if _plain_header(cell) and _plain_header(cell) not in names]
     if not unknown:
         return ""
+    has_name = "name" in found or {"first", "last"} <= {*found}
+    lacking = [column for column in _HEADERS if column not in found and not (has_name and column in _OF_A_NAME)]
+    owners = {name: column for column in lacking for name in _HEADERS[column]}
     meant = {cell: nearest(_plain_header(cell), owners) for cell in unknown}
-    asked = [
-        repr(cell) if name is None else f"{cell!r} (is it {_typed(owners[name])}?)" for cell, name in meant.items()
-    ]
-    known = ", ".join(map(_typed, _HEADERS))
+    asked = [f"{cell!r} (is it {_typed(owners[name])}?)" for cell, name in meant.items() if name is not None]
+    asked += [repr(cell) for cell, name in meant.items() if name is None]
     what = "column" if len(unknown) == 1 else "columns"
+    known = ", ".join(map(_typed, _HEADERS))
     return f"{path}:1: nothing is read from the {what} {join_some(asked, _MAX_NAMED)}; read are {known}"
 
 
@@ -140,7 +144,7 @@ def read_roster(path: Path, say: Callable[[str], None] = lambda words: None) -> 
     _, header = next(rows, (1, [""]))
     header = [_cell("", cell) for cell in header]
     columns = _columns(header, path)
-    unknown = _unknown_columns(header, path)
+    unknown = _unknown_columns(header, columns, path)
     if unknown:
         say(unknown)
     students: list[Student] = []

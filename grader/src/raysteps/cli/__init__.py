@@ -97,7 +97,7 @@ class Parser(argparse.ArgumentParser):
     def _of_a_step(self, words: Sequence[str]) -> str:
         if not self.for_steps or not re.match(r"(?:steps[/\\])?\d", words[0]):
             return ""
-        return f"; for a step of yours type: {kit_command(self.for_steps, *words)}"
+        return f"; for a step of yours type: {kit_command(self.for_steps, words[0])}"
 
     def _get_option_tuples(self, option_string: str) -> Any:
         """What a beginning of an option may mean: two names of one option are no two options."""

@@ -150,32 +150,49 @@ def place_in_toml(text: str, path: Sequence[str]) -> str:
     return found
 
 
-# What is mostly meant where a line is not TOML, and how it is written: of the text behind the =, without a comment.
+# What is mostly meant where a line is not TOML: by what the reader of TOML says, and the text behind the =.
+_CURVED = "\u2018-\u201f"
 _ADVICE = (
-    (r"", "nothing stands behind the ="),
-    (r".*[\u201c-\u201f\u2018-\u201b]", 'these quotes are curved; straight ones are meant: "'),
-    (r"(?i:true|false)", "true and false are written in small letters"),
-    (r"\"[^\"]*\\.*", "in double quotes a \\ is written twice; in single quotes, '...', it stands as it is"),
-    (r"\d{4}-\d\d?-\d\d?[T ].*|\d\d?:\d\d.*", "a time is written with its seconds: 2026-11-20T23:59:00+01:00"),
-    (r"\d\d?[./-]\d\d?[./-]\d+.*|\d{4}[./-]\d\d?[./-]\d\d?", "a day is written as 2026-11-20"),
-    (r"0\d+", "a number does not begin with 0"),
-    (r"-?\d+,\d+", "numbers have a point, as in 2.5"),
-    (r"\"[^\"]*|'[^']*", "the quote that ends it is missing"),
-    (r"\[[^\]]*", "the ] that ends the list is missing, or a comma in it"),
-    (r"[^\"'\[{].*", 'text stands in quotes: {key} = "{value}"'),
+    ("Unclosed array", "", "the ] that ends the list is missing, or a comma in it"),
+    ("", r"$", "nothing stands behind the ="),
+    ("", rf"[^\"']*[{_CURVED}]", 'these quotes are curved; straight ones are meant: "'),
+    (
+        "Unescaped|Invalid hex",
+        "",
+        "in double quotes a \\ is written twice, in single quotes, '...', once",
+    ),
+    ("Unterminated string|Illegal character", "[\"']", "the quote that ends it is missing"),
+    ("", r"(?i:true|false)$", "true and false are written in small letters"),
+    ("", r"(?:\d{4}-\d\d-\d\d[T ])?\d\d?:\d\d(?!:)", "a time is written with its seconds: 2026-11-20T23:59:00+01:00"),
+    ("", r"\d\d?[./-]\d\d?[./-]\d\d|\d{4}[./]\d\d?[./]\d", "a day is written as 2026-11-20"),
+    ("", r"0\d+$", "a number does not begin with 0"),
+    ("", r"[-+]?\d+,\d+$", "numbers have a point, as in 2.5"),
+    ("", r"[^\W\d]|[./~]\D|\d+ *[-,] *\d+$", 'text stands in quotes: {key} = "{value}"'),
+    ("", r"[-+.]?\d+(?![-\d])", "a number stands alone, such as 10 or 2.5"),
 )
-_NO_EQUALS = re.compile(rf"\s*({_KEY})(?::|\s)\s*[^\s=]")
+_NO_EQUALS = re.compile(r"\s*([A-Za-z0-9][\w-]*)\s*[:\s]\s*[^\s=][^=]*$")
 
 
-def _advice(line: str) -> str:
-    """The end of a sentence, or nothing."""
+def _is_toml(line: str) -> bool:
+    try:
+        tomllib.loads(line)
+    except tomllib.TOMLDecodeError:
+        return False
+    return True
+
+
+def _advice(what: str, line: str) -> str:
+    """The end of a sentence, or nothing. `what` the reader says was sometimes found out lines later."""
     setting = _SETTING.match(line)
     if setting is None:
         unequal = _NO_EQUALS.match(line)
         return f"; between a key and its value stands =, as in {unequal[1]} = ..." if unequal is not None else ""
-    value = re.sub(r"\s+#.*", "", line[setting.end() :]).strip()
-    found = next((words for pattern, words in _ADVICE if re.fullmatch(pattern, value)), "")
-    told = found.replace("{key}", setting[1]).replace("{value}", value.replace('"', "'"))
+    value = line[setting.end() :].strip()
+    if not value.startswith(("'", '"')):
+        value = re.sub(r"\s#.*", "", value).strip()
+    found = (words for said, text, words in _ADVICE if re.match(said, what) and re.match(text, value))
+    told = next(found, "") if what == "Unclosed array" or not _is_toml(line) else ""
+    told = told.replace("{key}", setting[1]).replace("{value}", value.replace('"', "'"))
     return f"; {shorten(told, _LONGEST)}" if told else ""
 
 
@@ -184,10 +201,15 @@ def _said_twice(text: str) -> tuple[int, str] | None:
     table, seen = "", set[tuple[str, str]]()
     for number, line in enumerate(text.splitlines(), start=1):
         header, setting = _HEADER.match(line), _SETTING.match(line)
-        table = header[1].strip() if header is not None else table
-        if setting is not None and (table, setting[1]) in seen:
-            return number, setting[1]
-        seen |= {(table, setting[1])} if setting is not None else set()
+        if header is not None:
+            table = header[1].strip()
+        elif line.lstrip().startswith("[["):  # a table of its own, under a name that others have, too
+            table = str(number)
+        elif setting is not None:
+            key = setting[1].strip("\"'")
+            if (table, key) in seen:
+                return number, key
+            seen.add((table, key))
     return None
 
 
@@ -200,7 +222,7 @@ def _not_toml(text: str, error: tomllib.TOMLDecodeError) -> str:
     if twice is not None:
         return f"{twice[0]}:1: is not TOML: {twice[1]} stands there twice; keep one of them"
     line, column = (int(told[1]), int(told[2])) if told is not None else (len(lines), len(lines[-1]) + 1)
-    advice = _advice(lines[min(line, len(lines)) - 1])
+    advice = _advice(what, lines[min(line, len(lines)) - 1])
     return f"{line}:{column}: is not TOML: {what[:1].lower()}{what[1:]}{advice}"
 
 

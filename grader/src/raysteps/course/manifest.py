@@ -318,7 +318,7 @@ def _ids(steps: Sequence[Step], part: int) -> str:
 def _range(steps: list[Step], word: str, others: Sequence[Step]) -> list[Step]:
     ends = _RANGE.fullmatch(word)
     if ends is None and _OTHER_RANGE.fullmatch(word):
-        raise UsageError(f"there is no step '{word}'; expected steps {STEPS_HELP}; where none is named, all are meant")
+        raise UsageError(f"there is no step '{word}'; expected steps {STEPS_HELP}")
     if ends is None:
         return [_one(steps, word, others)]
     first, last = _one(steps, ends[1], others), _one(steps, ends[2], others)

@@ -215,6 +215,7 @@ def result_with_folder(result: StepResult, step: Step) -> StepResult:
     told.tests = tests_with_folder(result.tests, step)
     told.images = [replace(image, message=with_folder(image.message, step)) for image in result.images]
     told.hidden = [replace(item, message=with_folder(item.message, step)) for item in result.hidden]
+    told.cumulative = replace(told.cumulative, message=with_folder(told.cumulative.message, step))
     told.diagnoses = [
         replace(one, title=with_folder(one.title, step), hint=with_folder(one.hint, step)) for one in result.diagnoses
     ]
@@ -225,7 +226,7 @@ def result_with_folder(result: StepResult, step: Step) -> StepResult:
 
 _MAX_WARNINGS = 3
 _WARNING = re.compile(
-    r"^(?P<text>(?:[A-Za-z]:(?=[\\/]))?[^\s:(][^\n:(]{0,200}(?::\d{1,7}:\d{1,7}|\(\d{1,7}(?:,\d{1,7})?\)): "
+    r"^(?P<text>(?:[A-Za-z]:(?=[\\/]))?[^\s:(][^\n:(]{0,200}(?::\d{1,7}(?::\d{1,7})?|\(\d{1,7}(?:,\d{1,7})?\)): "
     r"warning(?: C\d{1,6})?: .{1,300}?)(?: \[-W[\w=+-]{1,60}\]|$|(?<=.{300}))",
     re.M,
 )

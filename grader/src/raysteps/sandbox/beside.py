@@ -61,7 +61,7 @@ _CLOSED = 70
 _WHY_BROKEN = {
     71: "something else than the step's functions wrote to the pipe of their answers",
     72: "the functions called each other without an end",
-    73: "an answer of the step's functions was longer than 128 MB",
+    73: "the answers of the step's functions were longer than 128 MB at once",
 }
 
 

@@ -81,9 +81,9 @@ class Places:
         return self._plain.get(_plain(parts[-1]))
 
     def beside(self, parts: tuple[str, ...]) -> str | None:
-        """The step in whose folder this lies, a source under any name but that of the step's tests."""
+        """The step in whose folder this lies, a source under any name but that of the step's tests or their copies."""
         name = _lower(parts[-1])
-        is_code = name.endswith(_ENDINGS_OF_CODE) and not name.partition(".")[0].endswith("_test")
+        is_code = name.endswith(_ENDINGS_OF_CODE) and not name.startswith(".") and "_test" not in name
         return self.is_of_a_step(parts[:-1]) if is_code and len(parts) > 1 else None
 
     def is_of_a_step(self, parts: tuple[str, ...]) -> str | None:

@@ -373,7 +373,9 @@ class StudentBuild:
             return None, ran
         name = f"{kind}-{step.number}{'-together' if together else ''}"
         path = self._folder / executable(Path(name)).name
-        copy_program(self._write(f"{name}.linked", data), path)
+        written = self._write(f"{name}.linked", data)
+        copy_program(written, path)
+        written.unlink()
         return Program((Input(path, kind),)), None
 
     def _boxed(
