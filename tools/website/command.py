@@ -10,6 +10,7 @@ from rich.markup import escape
 
 from raysteps.cli.app import new_parser
 from raysteps.common.errors import UsageError
+from raysteps.common.files import usable_folder
 from raysteps.course.project import Project
 from raysteps.play.packages import registry_of
 from raysteps.release.leaks import find_leaks
@@ -66,7 +67,7 @@ def _build(
     console: Console,
 ) -> list[str]:
     """Builds beside its place, and puts it there when nothing is wrong. `made_before` says where pages are from."""
-    out.parent.mkdir(parents=True, exist_ok=True)
+    usable_folder(out.parent)
     with tempfile.TemporaryDirectory(prefix=".site-", dir=out.parent, ignore_cleanup_errors=True) as name:
         work = Path(name)
         (work / "stage").mkdir()

@@ -49,6 +49,12 @@ def test_formulas_are_told_from_other_dollars() -> None:
     assert formulas("$a + b$, $$c$$ and `$d` cost $5 or $HOME\n```\n$e$\n```\n") == ["a + b", "c"]
 
 
+def test_a_place_where_no_folder_can_be_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "notes.txt").write_text("mine")
+    assert main(["docs", "--out", str(tmp_path / "notes.txt" / "site")]) == 2
+    assert "is a file; expected a folder" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("formula", [r"\nonsense{x}", r"\frac12", r"{a"])
 def test_a_formula_that_cannot_be_shown_is_found(formula: str) -> None:
     with pytest.raises(BadFormula):
