@@ -40,15 +40,21 @@ class CannotSetUp(Exception):
 INSTRUCTOR = "instructor"
 PLAY = "play"  # also the command that needs it
 MAKER = "dev"  # the others, too
+_HELP = {"-h", "--help"}
 _OF_MAKERS = {"docs": (), "test": (), "dev": ("format", "lint")}  # commands, and what of them where it is not all
 
 
 def set_for(words: Sequence[str]) -> str:
-    """What a command needs beside the usual set of its kit; nothing for most."""
-    if words[:1] == [PLAY]:
+    """What a command needs beside the usual set of its kit: nothing for most, nor to say how it is used."""
+    command, *rest = words or [""]
+    if command == PLAY:
         return PLAY
-    some = _OF_MAKERS.get(words[0]) if words else None
-    return MAKER if some is not None and (not some or (words[1:2] and words[1] in some)) else ""
+    some = _OF_MAKERS.get(command)
+    if some is None or _HELP & {*rest}:
+        return ""
+    first = rest[0] if rest else ""
+    needs_them = first in some if some else not first or first.startswith("-")  # `test 01` is refused
+    return MAKER if needs_them else ""
 
 
 class Venv:
