@@ -139,6 +139,13 @@ def test_no_variance_is_negative(rng: np.random.Generator) -> None:
     assert "no finite number" in compare_estimates(mine, _reference(rng), _SIZE, _MORE, _MAX_NOISE).message
 
 
+@pytest.mark.filterwarnings("error")
+def test_parts_of_infinite_light_are_no_numbers_and_no_warning_says_so() -> None:
+    light = np.zeros((PART, PART, 3))
+    light[0, 0], light[0, 1] = np.inf, -np.inf
+    assert np.isnan(Estimates(light, light).in_parts().mean).all()
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_what_is_no_finite_number_is_wrong(rng: np.random.Generator, bad: float) -> None:
     for field in ("mean", "variance"):

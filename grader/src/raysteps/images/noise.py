@@ -52,7 +52,8 @@ class Estimates:
             return np.asarray(np.add.reduceat(np.add.reduceat(values, rows, axis=0), columns, axis=1))
 
         pixels = sums(np.ones((*self.mean.shape[:2], 1)))
-        return Estimates(sums(self.mean) / pixels, sums(self.variance) / pixels**2)
+        with np.errstate(all="ignore"):  # of infinite light, which is told elsewhere
+            return Estimates(sums(self.mean) / pixels, sums(self.variance) / pixels**2)
 
 
 def read_estimates(data: bytes) -> Estimates:
