@@ -29,15 +29,15 @@ void exchange_with_thread(Exceptions& kept) {
     std::swap(current.uncaught, kept.uncaught);
 }
 
-thread_local Fiber* t_resumed = nullptr;  // last, by this thread
+thread_local Fiber* t_resumed = nullptr;  // last, on this thread
 
 }  // namespace
 
 struct Fiber::State {
     Stack stack;
-    Exceptions exceptions;
+    Exceptions exceptions;  ///< of whoever resumed it, while it runs
     Place inside{};
-    Place outside{};
+    Place* outside = nullptr;  ///< where it was resumed
 };
 
 Fiber::Fiber(std::function<void()> body) : body_(std::move(body)), state_(std::make_unique<State>()) {
@@ -48,19 +48,37 @@ Fiber::~Fiber() = default;
 
 void Fiber::enter() {
     Fiber& self = *t_resumed;
-    self.body_();
+    try {
+        self.body_();
+    } catch (...) {
+        self.unhandled_ = std::current_exception();
+    }
     self.ended_ = true;
     self.stop();
 }
 
 void Fiber::resume() {
-    State& state = *state_;
+    Place outside{};
+    state_->outside = &outside;
     t_resumed = this;
-    exchange_with_thread(state.exceptions);
-    change(state.outside, state.inside);
-    exchange_with_thread(state.exceptions);
+    exchange_with_thread(state_->exceptions);
+    change(outside, state_->inside);
+    if (t_resumed->unhandled_) {
+        std::rethrow_exception(std::exchange(t_resumed->unhandled_, nullptr));
+    }
 }
 
-void Fiber::stop() { change(state_->inside, state_->outside); }
+void Fiber::stop() {
+    exchange_with_thread(state_->exceptions);
+    change(state_->inside, *state_->outside);
+}
+
+void Fiber::stop_for(Fiber& next) {
+    next.state_->outside = state_->outside;
+    t_resumed = &next;
+    exchange_with_thread(state_->exceptions);
+    exchange_with_thread(next.state_->exceptions);
+    change(state_->inside, next.state_->inside);
+}
 
 }  // namespace raysteps::remote

@@ -1,7 +1,7 @@
 #pragma once
 // A function with a stack of its own, which can stop in the middle and go on later: so that many pixels can wait for
 // the box at the same time, on one thread.
-#include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
 
@@ -11,16 +11,18 @@ namespace raysteps::remote {
 /// given back as it is.
 class Fiber {
 public:
-    /// Starts at the first resume. Whatever leaves `body` must be caught in it.
+    /// Starts when it is first resumed.
     explicit Fiber(std::function<void()> body);
     ~Fiber();
     Fiber(const Fiber&) = delete;
     Fiber& operator=(const Fiber&) = delete;
 
-    /// Runs until the body ends or stops.
+    /// Runs until the body, or one that it stopped for, ends or stops. Throws what that has left unhandled.
     void resume();
     /// Called in the body: goes back to whoever resumed it.
     void stop();
+    /// Called in the body: `next`, which is stopped, goes on in its place, as if it had been resumed instead.
+    void stop_for(Fiber& next);
     [[nodiscard]] bool ended() const { return ended_; }
 
 private:
@@ -29,6 +31,7 @@ private:
 
     std::function<void()> body_;
     bool ended_ = false;
+    std::exception_ptr unhandled_;
     std::unique_ptr<State> state_;
 };
 

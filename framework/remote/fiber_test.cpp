@@ -114,6 +114,42 @@ TEST_CASE("a fiber that stops in a handler has its own exception afterwards" WAY
     }
 }
 
+TEST_CASE("fibers that stop for each other go on where they stopped, each in its own handler" WAY, "[remote]") {
+    Fibers fibers;
+    std::array<std::string, k_fibers> caught;
+    for (std::size_t number = 0; number < k_fibers; ++number) {
+        fibers.push_back(std::make_unique<Fiber>([&fibers, &caught, number] {
+            Fiber& next = *fibers[(number + 1) % k_fibers];
+            for (int round = 0; round < 3; ++round) {
+                try {
+                    throw std::runtime_error(std::to_string(number));
+                } catch (const std::runtime_error& error) {
+                    fibers[number]->stop_for(next);
+                    caught[number] += error.what();
+                }
+            }
+            fibers[number]->stop();
+        }));
+    }
+    fibers[0]->resume();  // the others only ever go on in its place
+    REQUIRE_FALSE(fibers[0]->ended());
+    REQUIRE(std::current_exception() == nullptr);
+    for (std::size_t number = 0; number < k_fibers; ++number) {
+        const std::string word = std::to_string(number);
+        REQUIRE(caught[number] == (number == 0 ? word + word + word : word + word));
+    }
+}
+
+TEST_CASE("who resumes a fiber gets what nobody has handled in it, or in one that it stopped for" WAY, "[remote]") {
+    Fiber failing([] { throw std::length_error("unhandled"); });
+    Fiber first([&] { first.stop_for(failing); });
+    REQUIRE_THROWS_AS(first.resume(), std::length_error);
+    REQUIRE(failing.ended());
+    REQUIRE_FALSE(first.ended());
+    first.resume();
+    REQUIRE(first.ended());
+}
+
 TEST_CASE("a fiber that never ends is given back as it is" WAY, "[remote]") {
     int begun = 0;
     {

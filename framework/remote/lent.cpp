@@ -193,6 +193,10 @@ bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
     offer_function<&hit_of>(FunctionId::lent_surface_hit) &&
     offer_function<&overlaps_of>(FunctionId::lent_surface_overlaps);
 
+[[maybe_unused]] const bool answered_alone = calls_only(FunctionId::lent_closest_hit, k_called_by_searches) &&
+                                             calls_only(FunctionId::lent_occluded, k_called_by_searches) &&
+                                             calls_only(FunctionId::lent_surface_hit, k_called_by_surfaces);
+
 PlaceInGroup place_of(const Surface& copy) {
     const PlaceInGroup* place = Groups::all().place_of(&copy);
     if (place == nullptr) {

@@ -71,8 +71,10 @@ std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<s
     return hits;
 }
 
-[[maybe_unused]] const bool offered_ahead =
-    offer(FunctionId::lent_boxes, serve_boxes) && offer_function<&hits_of>(FunctionId::lent_surface_hits);
+[[maybe_unused]] const bool offered_ahead = offer(FunctionId::lent_boxes, serve_boxes) &&
+                                            offer_function<&hits_of>(FunctionId::lent_surface_hits) &&
+                                            calls_only(FunctionId::lent_boxes, {FunctionId::box_clip}) &&
+                                            calls_only(FunctionId::lent_surface_hits, k_called_by_surfaces);
 
 template <typename T>
 bool same_bytes(const T& a, const T& b) {
@@ -112,8 +114,8 @@ struct State {
             group = leaf.group;
             leaf_ray = ray;
         }
-        for (const std::uint32_t index : leaf.indices) {
-            of_surface.resize(std::max(of_surface.size(), std::size_t{index} + 1));
+        if (of_surface.size() < leaf.end) {
+            of_surface.resize(leaf.end);
         }
     }
     [[nodiscard]] bool knows(std::uint32_t index) const { return of_surface[index].round == leaf_round; }
@@ -174,6 +176,7 @@ void enter_run(std::span<const Surface*> run, Scene& entries) {
         const PlaceInGroup place = *Groups::all().place_of(surface);
         leaf->group = place.group;
         leaf->indices.push_back(place.index);
+        leaf->end = std::max(leaf->end, place.index + 1);
     }
     for (std::size_t place = 0; place < run.size(); ++place) {
         entries.add(std::make_unique<LeafEntry>(*run[place], leaf, place), run[place]->order());
@@ -258,15 +261,11 @@ std::optional<HitRecord> LeafEntry::intersect(const Ray& ray) const {
     known.look_at(*leaf_, ray);
     const std::uint32_t index = leaf_->indices[place_];
     if (!known.knows(index)) {
-        std::vector<std::uint32_t> rest;
-        for (std::size_t place = place_; place < leaf_->indices.size() && rest.size() < k_max_surfaces; ++place) {
-            if (known.knows(leaf_->indices[place])) {
-                break;
-            }
-            rest.push_back(leaf_->indices[place]);
-        }
+        std::span<const std::uint32_t> rest(leaf_->indices);
+        rest = rest.subspan(place_, std::min(rest.size() - place_, k_max_surfaces));
+        rest = {rest.begin(), std::find_if(rest.begin(), rest.end(), [&](auto one) { return known.knows(one); })};
         using Hits = std::vector<std::optional<HitRecord>>;
-        const Hits hits = ask<Hits, GroupId, const std::vector<std::uint32_t>&, Ray, float>(
+        const Hits hits = ask<Hits, GroupId, std::span<const std::uint32_t>, Ray, float>(
             FunctionId::lent_surface_hits, leaf_->group, rest, ray, known.until);
         for (std::size_t place = 0; place < std::min(hits.size(), rest.size()); ++place) {
             known.learn(rest[place], hits[place]);

@@ -72,6 +72,7 @@ private:
 struct Leaf {
     GroupId group = 0;
     std::vector<std::uint32_t> indices;
+    std::uint32_t end = 0;  ///< beyond the highest of these
 };
 
 /// Stands in a leaf for a copy of a surface, and knows what comes after it.

@@ -3,8 +3,11 @@
 #ifdef __linux__
 #include <sched.h>
 #endif
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace raysteps::remote {
 namespace {
@@ -25,6 +28,11 @@ OfEach<bool>& stand_ins() {
     static OfEach<bool> asked{};
     return asked;
 }
+/// Nothing is known of the calls of most.
+OfEach<std::optional<std::vector<FunctionId>>>& calls() {
+    static OfEach<std::optional<std::vector<FunctionId>>> of_each{};
+    return of_each;
+}
 
 }  // namespace
 
@@ -35,7 +43,13 @@ bool offer(FunctionId id, Session::Service service) {
 
 bool stand_in(FunctionId id) { return stand_ins().at(static_cast<std::size_t>(id)) = true; }
 
-Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell) : end_(end), wire_(end, pipes, answer, farewell) {
+bool calls_only(FunctionId id, std::initializer_list<FunctionId> called) {
+    calls().at(static_cast<std::size_t>(id)) = called;
+    return true;
+}
+
+Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell)
+    : end_(end), wire_(end, pipes, answer, farewell, end == End::home ? answers_alone : nullptr) {
     g_session = this;
 }
 
@@ -89,6 +103,18 @@ void Session::keep_exception() {
     if (end_ == End::home) {
         kept_[wire_.current()] = std::current_exception();
     }
+}
+
+/// Nothing that it calls is asked here. That is known when main has begun, and before a box asks anything.
+bool Session::answers_alone(std::string_view question) {
+    static const OfEach<bool> alone = [] {
+        OfEach<bool> of_each{};
+        std::transform(calls().begin(), calls().end(), of_each.begin(),
+                       [](const auto& called) { return called && std::none_of(called->begin(), called->end(), asks); });
+        return of_each;
+    }();
+    const auto id = question.empty() ? alone.size() : static_cast<unsigned char>(question.front());
+    return id < alone.size() && alone[id];
 }
 
 void Session::answer(Wire& wire, std::string_view question) {

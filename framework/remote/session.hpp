@@ -2,6 +2,7 @@
 // One end of the wire as the stand-ins see it: asks functions of the other end, and offers its own.
 #include <array>
 #include <exception>
+#include <initializer_list>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -51,6 +52,7 @@ public:
 private:
     [[nodiscard]] Message wait_for_answer();
     static void answer(Wire& wire, std::string_view question);
+    static bool answers_alone(std::string_view question);
     void keep_exception();
 
     End end_;
@@ -65,5 +67,22 @@ bool run_on_processor(int processor);
 /// Called before main begins, by whoever has the function, or a stand-in for it. Always true.
 bool offer(FunctionId id, Session::Service service);
 bool stand_in(FunctionId id);
+
+/// What tests of surfaces call of the steps' functions, and what searches of a scene do.
+inline constexpr std::initializer_list<FunctionId> k_called_by_surfaces = {
+    FunctionId::point_at, FunctionId::triangle_intersect, FunctionId::sphere_intersect};
+inline constexpr std::initializer_list<FunctionId> k_called_by_searches = {FunctionId::point_at,
+                                                                           FunctionId::triangle_intersect,
+                                                                           FunctionId::sphere_intersect,
+                                                                           FunctionId::closest_hit,
+                                                                           FunctionId::any_hit,
+                                                                           FunctionId::box_clip,
+                                                                           FunctionId::closest_hit_in_octree,
+                                                                           FunctionId::occluded_in_octree,
+                                                                           FunctionId::closest_hit_in_bvh,
+                                                                           FunctionId::occluded_in_bvh};
+
+/// That the offered function calls none of the steps' functions but these. Always true.
+bool calls_only(FunctionId id, std::initializer_list<FunctionId> called);
 
 }  // namespace raysteps::remote

@@ -32,11 +32,12 @@ void Wire::end(int code, const char* why) {
     std::_Exit(code);
 }
 
-Wire::Wire(End end, Pipes pipes, Service service, Farewell farewell)
+Wire::Wire(End end, Pipes pipes, Service service, Farewell farewell, AnswersAlone answers_alone)
     : end_(end),
       pipes_(pipes),
       service_(service),
       farewell_(farewell),
+      answers_alone_(answers_alone),
       outgoing_(sizeof(BatchSize), '\0'),
       incoming_(k_usual_batch) {
     t_has_fibers = true;
@@ -81,12 +82,14 @@ void Wire::end_message(std::size_t start) {
 }
 
 Message Wire::receive() {
+    if (answers_alone_now_) {
+        end(k_broken, "a function that answers alone has asked");
+    }
     while (true) {
-        Fiber* fiber = nullptr;
         {
             const std::unique_lock lock = guard();
             Conversation& talk = conversation(current());
-            if (talk.received) {
+            if (talk.received && !talk.ready) {
                 Message message = std::move(*talk.received);
                 talk.received.reset();
                 talk.waiting = false;
@@ -96,17 +99,12 @@ Message Wire::receive() {
                 return message;
             }
             talk.waiting = true;
-            fiber = talk.fiber.get();
-            if (fiber == nullptr && (talk.visitor || ready_.empty())) {
+            if (talk.visitor || (ready_.empty() && !is_thread_needed())) {
                 exchange();
                 continue;
             }
         }
-        if (fiber != nullptr) {
-            fiber->stop();
-        } else {
-            resume_one();
-        }
+        go_on();
     }
 }
 
@@ -164,11 +162,16 @@ void Wire::run_together(int most, const std::function<void()>& work) {
             }
             break;  // there is room for fewer
         }
-        resume(++started);
+        starts_ = true;
+        ready_.push_back(++started);
+        go_on();
     }
+    starts_ = false;
     while (ended < started) {
-        if (!resume_one()) {
+        if (ready_.empty()) {
             exchange();
+        } else {
+            go_on();
         }
     }
     for (std::size_t number = 1; number <= started; ++number) {
@@ -180,14 +183,79 @@ void Wire::run_together(int most, const std::function<void()>& work) {
     }
 }
 
-bool Wire::resume_one() {
-    if (ready_.empty()) {
-        return false;
+/// Lets the next of those that something came for go on: in place of the fiber that calls this, until something comes
+/// for that, or until nothing is left to do without the thread that fibers run on.
+void Wire::go_on() {
+    Fiber* const self = conversation(running_).fiber.get();
+    const std::size_t number = next_ready();
+    if (number == 0) {
+        become(0);
+        self->stop();
+        return;
     }
-    const std::size_t number = ready_.front();  // in the order of sending: what comes first may explain the next
+    Conversation& next = conversation(number);
+    if (may_answer_for(next)) {
+        answer_for(next, number);
+        return;
+    }
+    if (next.fiber->ended()) {
+        end(k_broken, "an answer came that nobody asked for");
+    }
+    if (next.fiber.get() == self) {
+        return;
+    }
+    become(number);
+    if (self != nullptr) {
+        self->stop_for(*next.fiber);
+    } else {
+        next.fiber->resume();
+        become(0);
+    }
+}
+
+/// A fiber that waits for an answer, and is asked meanwhile what needs none of its own, sleeps on: to wake it and to
+/// let it sleep again would take longer than most answers.
+bool Wire::may_answer_for(const Conversation& talk) const {
+    return answers_alone_ != nullptr && !talk.serves && talk.received && talk.received->kind == Kind::question &&
+           answers_alone_(talk.received->bytes);
+}
+
+void Wire::answer_for(Conversation& talk, std::size_t number) {
+    const Message question = *std::exchange(talk.received, std::nullopt);
+    const std::size_t before = running_;
+    become(number);
+    answers_alone_now_ = true;
+    service_(*this, question.bytes);
+    answers_alone_now_ = false;
+    become(before);
+}
+
+/// In the order of sending: what comes first may explain the next. 0 for the thread itself.
+std::size_t Wire::next_ready() {
+    const std::unique_lock lock = guard();
+    if (ready_.empty()) {
+        return 0;
+    }
+    const std::size_t number = ready_.front();
     ready_.pop_front();
-    resume(number);
-    return true;
+    conversation(number).ready = false;
+    return number;
+}
+
+/// Whether the thread that fibers run on waits for this one to stop: it has more of them to start, or was asked itself.
+bool Wire::is_thread_needed() const {
+    return running_ != 0 && (starts_ || (conversations_[0] != nullptr && conversations_[0]->received));
+}
+
+/// What the thread has for itself is of this conversation from now on.
+void Wire::become(std::size_t number) {
+    Conversation& before = conversation(running_);
+    exchange_thread_with(before);
+    if (end_ == End::home && before.serves) {  // whoever goes on next is charged with it
+        by_visitors_ += std::exchange(before.stats, {});
+    }
+    running_ = number;
+    exchange_thread_with(conversation(number));
 }
 
 void Wire::exchange_thread_with(Conversation& talk) {
@@ -197,22 +265,6 @@ void Wire::exchange_thread_with(Conversation& talk) {
             talk.memory.push_back(thread_memory_[i].fresh);
         }
         std::swap_ranges(talk.memory[i].begin(), talk.memory[i].end(), thread_memory_[i].bytes.begin());
-    }
-}
-
-void Wire::resume(std::size_t number) {
-    Conversation& talk = conversation(number);
-    if (talk.fiber->ended()) {
-        end(k_broken, "an answer came that nobody asked for");
-    }
-    const std::size_t before = std::exchange(running_, number);
-    exchange_thread_with(talk);
-    talk.fiber->resume();
-    exchange_thread_with(talk);
-    running_ = before;
-    if (end_ == End::home && talk.serves) {  // whoever goes on next is charged with it
-        Stats& charged = together_ == 0 ? thread_stats() : by_visitors_;
-        charged += std::exchange(talk.stats, {});
     }
 }
 
@@ -285,6 +337,7 @@ void Wire::deliver(std::string_view batch) {
             talk.serves = true;
         }
         ready_.push_back(number);
+        talk.ready = true;
     }
 }
 

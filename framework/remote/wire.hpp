@@ -66,6 +66,8 @@ public:
 
     /// Writes the answer to a question of the other end, in the conversation in which it was asked.
     using Service = void (*)(Wire& wire, std::string_view question);
+    /// Whether the service answers it without a question of its own.
+    using AnswersAlone = bool (*)(std::string_view question);
 
     /// Ends the program with its exit code, since there is nobody left to talk to: the other end is gone, sent what no
     /// stand-in sends, asks back without end, or has more to say at once than a batch holds.
@@ -77,7 +79,7 @@ public:
 
     static constexpr std::size_t k_max_conversations = 1024;
 
-    Wire(End end, Pipes pipes, Service service, Farewell farewell);
+    Wire(End end, Pipes pipes, Service service, Farewell farewell, AnswersAlone answers_alone = nullptr);
 
     /// A message of the current conversation: write(bytes) appends what it says. It is sent with all others when
     /// somebody waits.
@@ -124,11 +126,12 @@ private:
     struct Conversation {
         std::optional<Message> received;  ///< one at most, for the ends take turns
         std::unique_ptr<Fiber> fiber;     ///< none in that of a thread itself
-        Stats stats;                      ///< the fiber's, while it does not run
+        Stats stats;                      ///< its own, while it does not run
         std::vector<std::string> memory;  ///< likewise
         int depth = 0;                    ///< questions that are being answered
         bool visitor = false;             ///< of a thread that a student has started
         bool waiting = false;             ///< for a message
+        bool ready = false;               ///< to go on when it is its turn
         bool serves = false;              ///< the other end began it
     };
 
@@ -146,9 +149,13 @@ private:
     std::string_view read_batch();
     void deliver(std::string_view batch);
     [[nodiscard]] bool may_begin(std::size_t number) const;
-    void resume(std::size_t number);
+    void answer_for(Conversation& talk, std::size_t number);
+    [[nodiscard]] bool may_answer_for(const Conversation& talk) const;
+    [[nodiscard]] bool is_thread_needed() const;
+    [[nodiscard]] std::size_t next_ready();
+    void become(std::size_t number);
     void exchange_thread_with(Conversation& talk);
-    bool resume_one();
+    void go_on();
     Conversation& conversation(std::size_t number);
     void write_all(std::string_view bytes);
 
@@ -156,9 +163,12 @@ private:
     Pipes pipes_;
     Service service_;
     Farewell farewell_;
+    AnswersAlone answers_alone_;
+    bool answers_alone_now_ = false;
     std::recursive_mutex mutex_;
     std::array<std::unique_ptr<Conversation>, k_max_conversations> conversations_;
-    std::deque<std::size_t> ready_;  ///< fibers that something came for, in that order
+    std::deque<std::size_t> ready_;  ///< conversations on fibers that something came for, in that order
+    bool starts_ = false;            ///< more fibers, in run_together
     std::uint64_t together_ = 0;
     std::uint64_t last_together_ = 0;
     std::vector<ThreadMemory> thread_memory_;
