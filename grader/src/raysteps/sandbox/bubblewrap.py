@@ -165,7 +165,7 @@ class Bubblewrap:
 
         def locate(number: int, given: Input) -> str:
             inner = f"/in/{number}/{given.inner_name}"
-            to_run = given == task.command[0]
+            to_run = task.is_program(given)
             # The list of mounts, which a task can read, has the host's names; a copy has none to tell.
             if trusted or given.name is None:
                 shown = place.readable(given.path, to_run=to_run)

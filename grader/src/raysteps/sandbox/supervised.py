@@ -105,7 +105,7 @@ class SupervisedSandbox:
         inputs: list[Path] = []
 
         def locate(_: int, given: Input) -> str:
-            inputs.append(self._locate(place, given, to_run=given == task.command[0]))
+            inputs.append(self._locate(place, given, to_run=task.is_program(given)))
             return str(inputs[-1])
 
         inside = PathMap(task, locate)

@@ -102,6 +102,10 @@ class Task:
         named = (word for word in self.command if isinstance(word, Input))
         yield from dict.fromkeys([*named, *self.inputs])
 
+    def is_program(self, given: Input) -> bool:
+        """Whether the command runs it."""
+        return given == self.command[0]
+
     def all_outputs(self) -> Iterator[Output]:
         yield from dict.fromkeys(word for word in self.command if isinstance(word, Output))
 
