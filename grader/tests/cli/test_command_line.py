@@ -258,8 +258,13 @@ def test_one_submission_is_no_class(capsys: pytest.CaptureFixture[str], tmp_path
     assert not (tmp_path / "out").exists()
 
 
-def test_the_beginning_of_an_option_is_known(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_beginning_of_an_option_is_known(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Project, "build", property(lambda _: tmp_path))  # where it keeps what was read
     assert main(["hint", "01", "--al"]) == 0
+    assert "hint 3 of 3" in capsys.readouterr().out
+    assert (tmp_path / "hints.json").is_file()
 
 
 def test_what_follows_two_dashes_is_no_option(capsys: pytest.CaptureFixture[str]) -> None:
