@@ -21,7 +21,22 @@ def test_a_reason_has_no_number_and_no_path(tmp_path: Path) -> None:
 def test_what_has_no_words_of_ours_keeps_those_of_the_system() -> None:
     assert reason(OSError(errno.EXDEV, os.strerror(errno.EXDEV))) == os.strerror(errno.EXDEV)
     assert reason(OSError("cannot identify it")) == "cannot identify it"
-    assert reason(UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid")) == "it is no text in UTF-8"
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"\xff", "it is no text in UTF-8 (line 1, column 1); save it in UTF-8"),
+        ("a\näö = \n".encode() + b"b = \xe4", "it is no text in UTF-8 (line 3, column 5); save it in UTF-8"),
+        ("ä\nö".encode() + b"\xe4", "it is no text in UTF-8 (line 2, column 2); save it in UTF-8"),
+        ("ä = 1".encode("utf-16"), "it is text in UTF-16; save it in UTF-8"),
+    ],
+)
+def test_another_encoding_is_told_with_its_place(tmp_path: Path, data: bytes, said: str) -> None:
+    (tmp_path / "course.toml").write_bytes(data)
+    with pytest.raises(UnicodeDecodeError) as caught:
+        (tmp_path / "course.toml").read_text("utf-8-sig")
+    assert reason(caught.value) == said
 
 
 def test_a_file_that_another_program_has_open_on_windows() -> None:

@@ -104,6 +104,12 @@ percent_per_day = 10
             ":4:1: is not TOML: .*; the ] that ends the list is missing, or a comma in it",
         ),
         ('[points]\n"01" = 1\n01 = 2', ":3:1: is not TOML: 01 stands there twice; keep one of them"),
+        ("[points]\n02 = 1\n[points]\n03 = 2", ":3:1: is not TOML: the table [points] stands there twice; put all of"),
+        (
+            'late_policy = "late.toml"\n[late_policy]\npercent_per_day = 10',
+            ":2:1: is not TOML: late_policy stands there twice, as a line and as a table; keep one of them",
+        ),
+        ("[points]\n02 = 25\nseed = 7", ":3:1: points: `seed = ...` belongs above the first line in brackets"),
         ('title = ""', ":1:1: title: expected the name of the course"),
         ("steps = [1, true]", ":1:1: steps: expected steps such as"),
         ('[steps]\n"1-2" = 2026-10-12\n"3" = "soon"', ":3:1: steps: expected steps such as"),
@@ -149,6 +155,22 @@ def test_steps_that_are_not_there_are_refused(place: Path, text: str, words: str
 def test_points_of_a_step_that_is_not_there_are_refused(place: Path) -> None:
     place.write_text("[points]\n1 = 5\n77 = 5")
     with pytest.raises(UsageError, match=re.escape(f"{place}:3:1: points: there is no step '77'")):
+        read_steps(here())
+
+
+def test_a_step_has_its_points_and_its_day_once(place: Path) -> None:
+    place.write_text("[points]\n02 = 25\n2 = 26")
+    with pytest.raises(UsageError, match=re.escape(f"{place}:3:1: points: step 02 stands above already")):
+        read_steps(here())
+    place.write_text('[steps]\n"1-2" = 2026-10-12\n"2-4" = 2026-11-02')
+    with pytest.raises(UsageError, match=re.escape(f"{place}:3:1: steps: step 02 stands above already")):
+        dated_steps(here())
+
+
+@pytest.mark.parametrize(("encoding", "said"), [("utf-16", "it is text in UTF-16"), ("latin-1", "(line 2, column 10)")])
+def test_another_encoding_is_refused_with_what_to_do(place: Path, encoding: str, said: str) -> None:
+    place.write_text('seed = 5\ntitle = "ä"', encoding)
+    with pytest.raises(UsageError, match=f"{re.escape(said)}; save it in UTF-8"):
         read_steps(here())
 
 

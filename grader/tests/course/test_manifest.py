@@ -116,11 +116,11 @@ def test_only_functions_of_earlier_steps_are_barred(project: Project, tmp_path: 
         '{ "06-octree" = ["build_octre"] }': "'build_octre' is no function of 06-octree; did you mean build_octree",
         '{ "06-octre" = ["build_octree"] }': "'06-octre' is no step before it; did you mean 06-octree",
         '{ "09-bvh" = ["build_bvh"] }': "'09-bvh' is no step before it",
-        '["split"]': r"expected a list of names of functions for each step, found \['split'\]",
-        '{ "06-octree" = "split" }': "expected a list of names of functions for each step, found {'06-octree':",
+        '["split"]': r"expected a list of names of functions for each step; found \['split'\]",
+        '{ "06-octree" = "split" }': "expected a list of names of functions for each step; found {'06-octree':",
     }.items():
         path.write_text(re.sub(r"^barred = .*", f"barred = {said}", good, flags=re.MULTILINE), "utf-8")
-        with pytest.raises(GraderFault, match=f"step.toml: .*barred: {why}"):
+        with pytest.raises(GraderFault, match=rf"step.toml:13:1: barred: {why}"):
             read_manifests(copy)
     path.write_text(good, "utf-8")
     shutil.rmtree(copy.steps / "06-octree")
@@ -129,5 +129,57 @@ def test_only_functions_of_earlier_steps_are_barred(project: Project, tmp_path: 
 
 
 def test_a_bad_manifest_is_the_kits_fault(project: Project) -> None:
-    with pytest.raises(GraderFault):
+    with pytest.raises(GraderFault, match=r"CMakeLists\.txt:\d+:\d+: is not TOML"):
         read_step(project.root / "CMakeLists.txt")
+    with pytest.raises(GraderFault, match=r"nowhere\.toml: not a step manifest: it is not there"):
+        read_step(project.root / "nowhere.toml")
+
+
+_SLIPS = [
+    ("points = 20", "pionts = 20", "4:1: unknown key 'pionts'; did you mean points?"),
+    ("points = 20", 'points = "20"', "4:1: points: expected a number above 0; found '20'"),
+    ("points = 20", "points = -2", "4:1: points: expected a number above 0; found -2"),
+    ("points = 20", "points = 20\npoints = 25", "5:1: is not TOML: points stands there twice; keep one of them"),
+    ("bonus = false", 'bonus = "no"', "5:1: bonus: expected true or false; found 'no'"),
+    ("bonus = false", "bonus = False", "5:9: is not TOML: invalid value; true and false are written in small letters"),
+    ("tests = 0.45", "test = 0.45", "44:1: unknown key 'test'; did you mean tests?"),
+    ("tests = 0.45", "tests = 45", "44:1: tests: expected a share from 0 to 1; found 45"),
+    ("tests = 0.45", "tests = 0.55", "43:1: the weights must sum to 1; these sum to 1.1"),
+    ("tests = 0.45\n", "", "43:1: tests is missing; expected a share from 0 to 1"),
+    ("images = 0.15", "images = 0", "43:1: the weights must sum to 1; these sum to 0.85"),
+    (
+        "[weights]",
+        "left_out = true\n[weights]",
+        "43:1: unknown key 'left_out'; `left_out = ...` belongs above the first",
+    ),
+    ("[weights]", "[weights]\n[weights]", "44:1: is not TOML: the table [weights] stands there twice; put all"),
+    ("closest_hit = 2", "closest_hit = 0", "41:1: closest_hit: expected a weight beside the others; found 0"),
+    ("seconds = 10", "secnds = 10", "50:1: unknown key 'secnds'; did you mean seconds?"),
+    ("max_wrong = 0.0015", "max_wrong = 15", "63:1: max_wrong: expected the share of pixels that may be wrong, from 0"),
+    ("max_wrong = 0.0015", "", "59:1: max_wrong is missing; expected the share of pixels"),
+    ('name = "slivers-color"', 'name = "balls-normals"', "60:1: two pictures are called balls-normals"),
+    ("[[images]]", "[images]", "59:1: is not TOML: [images] and [[images]] both stand there"),
+]
+
+
+@pytest.mark.parametrize(("good", "slip", "told"), _SLIPS)
+def test_a_slip_is_told_with_its_place(project: Project, tmp_path: Path, good: str, slip: str, told: str) -> None:
+    path = tmp_path / "02-intersection" / "step.toml"
+    path.parent.mkdir()
+    text = (project.steps / "02-intersection" / "step.toml").read_text("utf-8")
+    assert good in text
+    path.write_text(text.replace(good, slip, 1), "utf-8")
+    with pytest.raises(GraderFault, match=f"step.toml:{re.escape(told)}"):
+        read_step(path)
+
+
+def test_a_manifest_may_come_from_any_editor_that_writes_utf_8(project: Project, tmp_path: Path) -> None:
+    path = tmp_path / "02-intersection" / "step.toml"
+    path.parent.mkdir()
+    data = (project.steps / "02-intersection" / "step.toml").read_bytes()
+    path.write_bytes(b"\xef\xbb\xbf" + data.replace(b"\n", b"\r\n"))
+    step = read_step(path)
+    assert (step.points, step.functions[0], len(step.images)) == (20, "Triangle::intersect", 3)
+    path.write_text(data.decode("utf-8"), "utf-16")
+    with pytest.raises(GraderFault, match="it is text in UTF-16; save it in UTF-8"):
+        read_step(path)

@@ -85,7 +85,7 @@ def test_a_step_belongs_to_part_one_unless_it_says_otherwise(kit: Project) -> No
 @pytest.mark.parametrize("value", ["0", "10", '"2"', "1.0", "true"])
 def test_a_part_is_a_number(kit: Project, value: str) -> None:
     _add(kit, "01-camera-rays", f"part = {value}")
-    with pytest.raises(GraderFault, match="part: expected a whole number from 1 to 9, found"):
+    with pytest.raises(GraderFault, match="part: expected a whole number from 1 to 9; found"):
         read_step(kit.steps / "01-camera-rays" / "step.toml")
 
 

@@ -91,12 +91,28 @@ def test_a_students_kit_has_no_plan(tmp_path: Path, steps: list[Step]) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("weight = 1", "weight = 0", "exclusiveMinimum|minimum|0"),
-        ('"any ray" = 40', '"any rays" = 40', "any ray, simple numbers"),
-        ("[functions.point_at.cases]", "[functions.point_to.cases]", "list the functions"),
-        ('of = "few-pixels"', 'of = "many-pixels"', "a twin for each picture"),
-        ("weight = 1", "weight = ", "not a plan"),
-        ("weight = 1", "weight = 1\ncolour = 2", "colour"),
+        ("weight = 1", "weight = 0", r":\d+:1: not a plan of hidden cases: weight: expected a number above 0; found 0"),
+        (
+            "weight = 1",
+            "weigth = 1",
+            r":\d+:1: not a plan of hidden cases: unknown key 'weigth'; did you mean weight\?",
+        ),
+        ("weight = 1", "weight = ", r":\d+:\d+: is not TOML: .*nothing stands behind the ="),
+        (
+            "weight = 1",
+            "weight = 1\ncolour = 2",
+            r":\d+:1: not a plan of hidden cases: unknown key 'colour'; known are",
+        ),
+        ('size = "', 'size = "big', ':1: not a plan .*: size: expected a size in pixels, such as "151x113"; found'),
+        ('"any ray" = 40', '"any rays" = 40', ":1: 'any rays' is no kind of cases of point_at; did you mean any ray"),
+        ('"any ray" = 40\n', "", r":\d+:1: 'any ray' is missing, a kind of .*: any ray, simple numbers"),
+        ('"any ray" = 40', '"any ray" = "40"', ":4:1: .*: any ray: expected a whole number or a table; found '40'"),
+        (
+            "[functions.point_at.cases]",
+            "[functions.point_to.cases]",
+            "list the functions .*: point_at, .*; found point_to",
+        ),
+        ('of = "few-pixels"', 'of = "many-pixels"', r":\d+:1: must list a twin for each picture"),
     ],
 )
 def test_a_bad_plan_is_the_kits_fault(

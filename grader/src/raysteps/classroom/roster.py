@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 
 from raysteps.classroom.entries import folded, platform_identity, stem
-from raysteps.common.errors import UsageError, reason
+from raysteps.common.errors import UsageError, place_of, reason
 from raysteps.common.text import delimiter_of, join_and, join_some, nearest, one_line, seen
 from raysteps.submission.load import like
 
@@ -119,8 +119,7 @@ def _text(path: Path) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = data[: error.start].count(b"\n") + 1
-        raise UsageError(f"{path}:{line}: is not UTF-8; save the roster as `CSV UTF-8`") from error
+        raise UsageError(f"{path}:{place_of(error)}: is not UTF-8; save the roster as `CSV UTF-8`") from error
 
 
 def _rows(text: str, path: Path) -> Iterable[tuple[int, list[str]]]:

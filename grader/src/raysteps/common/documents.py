@@ -3,8 +3,8 @@
 import codecs
 import re
 import tomllib
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import fields, is_dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -13,7 +13,7 @@ from msgspec import Meta
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import readable_json
-from raysteps.common.text import shorten
+from raysteps.common.text import nearest, shorten
 
 T = TypeVar("T")
 
@@ -132,21 +132,53 @@ def as_text(document: object) -> str:
 # TOML that people write: where in it something is wrong.
 
 _KEY = r"(?:\"[^\"]*\"|'[^']*'|[\w-]+)"
-_HEADER = re.compile(r"\s*\[([^\[\]]+)\]")
+_HEADER = re.compile(r"\s*(\[\[?)([^\[\]]+)\]")
 _SETTING = re.compile(rf"\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*=")
+_LONG_TEXT = re.compile(r"(\"\"\"|\'\'\').*?\1", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class _Line:
+    """One that names something: a key, or a table whose lines follow."""
+
+    number: int
+    text: str
+    table: str  # in which it stands, or which it begins; the third of `[[images]]` is `images.2`
+    key: str | None
+
+    @property
+    def path(self) -> list[str]:
+        named = self.table if self.key is None else f"{self.table}.{self.key}"
+        return [part.strip("\"'") for part in re.findall(_KEY, named)]
+
+    @property
+    def place(self) -> str:
+        return f"{self.number}:{len(self.text) - len(self.text.lstrip()) + 1}"
+
+
+def _named_lines(text: str) -> Iterator[_Line]:
+    """Lines of a text in three quotes name nothing, whatever they look like."""
+    text = _LONG_TEXT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
+    table, times = "", dict[str, int]()
+    for number, line in enumerate(text.split("\n"), start=1):
+        header, setting = _HEADER.match(line), _SETTING.match(line)
+        if header is not None:
+            table = header[2].strip()
+            if header[1] == "[[":
+                times[table] = times.get(table, -1) + 1
+                table = f"{table}.{times[table]}"
+            yield _Line(number, line, table, None)
+        elif setting is not None:
+            yield _Line(number, line, table, setting[1])
 
 
 def place_in_toml(text: str, path: Sequence[str]) -> str:
     """`LINE:COLUMN` of a key: of the longest part of its path that is found, 1:1 for the whole file."""
-    found, depth, table = "1:1", 0, ""
-    for number, line in enumerate(text.splitlines(), start=1):
-        header, setting = _HEADER.match(line), _SETTING.match(line)
-        if header is not None:
-            table = header[1].strip()
-        named = table if header is not None else f"{table}.{setting[1]}" if setting is not None else ""
-        parts = [part.strip("\"'") for part in re.findall(_KEY, named)]
+    found, depth = "1:1", 0
+    for line in _named_lines(text):
+        parts = line.path
         if depth < len(parts) <= len(path) and parts == list(path[: len(parts)]):
-            found, depth = f"{number}:{len(line) - len(line.lstrip()) + 1}", len(parts)
+            found, depth = line.place, len(parts)
     return found
 
 
@@ -198,19 +230,28 @@ def _advice(what: str, line: str) -> str:
 
 def _said_twice(text: str) -> tuple[int, str] | None:
     """The number of the first line with a key that stands above already, and the key."""
-    table, seen = "", set[tuple[str, str]]()
-    for number, line in enumerate(text.splitlines(), start=1):
-        header, setting = _HEADER.match(line), _SETTING.match(line)
-        if header is not None:
-            table = header[1].strip()
-        elif line.lstrip().startswith("[["):  # a table of its own, under a name that others have, too
-            table = str(number)
-        elif setting is not None:
-            key = setting[1].strip("\"'")
-            if (table, key) in seen:
-                return number, key
-            seen.add((table, key))
+    seen = set[tuple[str, str]]()
+    for line in _named_lines(text):
+        if line.key is not None:
+            key = line.key.strip("\"'")
+            if (line.table, key) in seen:
+                return line.number, key
+            seen.add((line.table, key))
     return None
+
+
+def _table_twice(line: str, text: str) -> str:
+    """What to do about a table that stands above already, in one form or another; nothing where the line is none."""
+    header = _HEADER.match(line)
+    if header is None:
+        return ""
+    name = header[2].strip()
+    forms = {found[1] for found in map(_HEADER.match, text.splitlines()) if found and found[2].strip() == name}
+    if "[[" in forms:
+        return f"[{name}] and [[{name}]] both stand there; write [[{name}]] each time"
+    if re.search(rf"(?m)^\s*{re.escape(name)}\s*=", text):
+        return f"{name} stands there twice, as a line and as a table; keep one of them"
+    return f"the table [{name}] stands there twice; put all of its lines below the first"
 
 
 def _not_toml(text: str, error: tomllib.TOMLDecodeError) -> str:
@@ -222,6 +263,9 @@ def _not_toml(text: str, error: tomllib.TOMLDecodeError) -> str:
     if twice is not None:
         return f"{twice[0]}:1: is not TOML: {twice[1]} stands there twice; keep one of them"
     line, column = (int(told[1]), int(told[2])) if told is not None else (len(lines), len(lines[-1]) + 1)
+    table = _table_twice(lines[min(line, len(lines)) - 1], text) if re.match("Cannot (overwrite|declare)", what) else ""
+    if table:
+        return f"{line}:1: is not TOML: {table}"
     advice = _advice(what, lines[min(line, len(lines)) - 1])
     return f"{line}:{column}: is not TOML: {what[:1].lower()}{what[1:]}{advice}"
 
@@ -240,14 +284,99 @@ def read_toml(text: str, name: str) -> dict[str, Any]:
 def read_text(path: Path) -> str:
     """The file as text."""
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise GraderFault(f"{path}: cannot be read: {reason(error)}") from error
 
 
-def parse_table(text: str, path: Path, what: str, kind: type[T]) -> T:
-    """`what` the file should be, such as `a plan of hidden cases`."""
+def table_of_kit(text: str, path: Path) -> dict[str, Any]:
+    """The file as a table."""
     try:
-        return convert(tomllib.loads(text), kind)
-    except ValueError as error:
-        raise GraderFault(f"{path}: not {what}: {error}") from error
+        return read_toml(text, str(path))
+    except UsageError as error:
+        raise GraderFault(str(error)) from error
+
+
+_STEP_DOWN = re.compile(r"\.([^.\[\]]+)|\[(\d+|\.\.\.)\]")
+_SOME_ENTRY = "..."  # of a table whose keys are free: which one, msgspec does not tell
+
+
+def _with_one(document: Any, path: Sequence[str], name: str) -> Any:
+    """The document with only that entry in the table at that path."""
+    if not path:
+        return {name: document[name]}
+    if isinstance(document, list):
+        return [_with_one(it, path[1:], name) if str(at) == path[0] else it for at, it in enumerate(document)]
+    return {**document, path[0]: _with_one(document[path[0]], path[1:], name)}
+
+
+def _problem(document: object, kind: type[object]) -> str:
+    try:
+        convert(document, kind)
+    except Malformed as error:
+        return str(error)
+    return ""
+
+
+def _at(document: Any, path: Sequence[str]) -> Any:
+    for name in path:
+        document = document[int(name)] if isinstance(document, list) else document.get(name)
+    return document
+
+
+def _path_of(document: object, kind: type[object], problem: str) -> list[str]:
+    """The keys that lead to what a problem is about."""
+    path = list[str]()
+    for key, number in _STEP_DOWN.findall(problem.partition(": ")[0]):
+        name = key or number
+        if name == _SOME_ENTRY:
+            ones = {one: _with_one(document, path, one) for one in _at(document, path)}
+            name, document = next((one, it) for one, it in ones.items() if _problem(it, kind) == problem)
+        path.append(name)
+    return path
+
+
+_KINDS = {"int": "a whole number", "float": "a number", "str": "text", "array": "a list", "object": "a table"}
+_KIND_NAME = re.compile(r"\b(?:int|float|str|array|object)\b")
+
+
+_MISSING = re.compile("object missing required field (.*)")
+
+
+def _misspelled(problem: str, found: object) -> str:
+    """The problem; a key that is missing where one much like it stands is that one, misspelled."""
+    missing = _MISSING.fullmatch(problem)
+    other = nearest(missing[1], found) if missing is not None and isinstance(found, dict) else None
+    return problem if missing is None or other is None else f"unknown key '{other}'; did you mean {missing[1]}?"
+
+
+def _in_words(problem: str, found: object, path: Sequence[str], expected: Mapping[str, str]) -> str:
+    """What is wrong there. `expected`: by key, what may stand behind it."""
+    missing = _MISSING.fullmatch(problem)
+    if missing is not None:
+        return f"{missing[1]} is missing"
+    if problem.startswith("unknown key"):
+        return problem
+    words = expected.get(path[-1] if path else "")
+    if words is None:
+        words = _KIND_NAME.sub(lambda kind: _KINDS[kind[0]], problem.partition(", got ")[0].removeprefix("expected "))
+        words = words.replace(" | ", " or ")
+    name = f"{path[-1]}: " if path else ""
+    return f"{name}expected {words}; found {shorten(repr(found), _LONGEST_VALUE)}"
+
+
+_LONGEST_VALUE = 80
+
+
+def parse_table(text: str, path: Path, what: str, kind: type[T], expected: Mapping[str, str] | None = None) -> T:
+    """`what` the file should be, such as `a plan of hidden cases`."""
+    table = table_of_kit(text, path)
+    try:
+        return convert(table, kind)
+    except Malformed as error:
+        keys = _path_of(table, kind, str(error))
+        problem = _misspelled(str(error).partition(": ")[2], _at(table, keys))
+        unknown = re.match("unknown key '([^']*)'", problem)
+        place = place_in_toml(text, [*keys, *([unknown[1]] if unknown else [])])
+        told = _in_words(problem, _at(table, keys), keys, expected or {})
+        raise GraderFault(f"{path}:{place}: not {what}: {told}") from error

@@ -76,13 +76,26 @@ def _closed_folder(error: OSError) -> str:
     return ""
 
 
+def place_of(error: UnicodeDecodeError) -> str:
+    """`LINE:COLUMN` of what is not in the encoding, in what was read."""
+    before = error.object[: error.start].decode(error.encoding, "replace")
+    return f"{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}"
+
+
+def _no_text(error: UnicodeDecodeError) -> str:
+    if error.object[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "it is text in UTF-16; save it in UTF-8"
+    line, _, column = place_of(error).partition(":")
+    return f"it is no text in UTF-8 (line {line}, column {column}); save it in UTF-8"
+
+
 def reason(error: Exception) -> str:
     """Why a file could not be read or written, without numbers and without its path, which the message names."""
     if getattr(error, "winerror", None) == _SHARING_VIOLATION:  # to which Windows gives the number of EACCES
         return "another program has it open"
     if isinstance(error, OSError):
         return (_REASONS.get(error.errno or 0) or error.strerror or str(error)) + _closed_folder(error)
-    return "it is no text in UTF-8" if isinstance(error, UnicodeDecodeError) else str(error)
+    return _no_text(error) if isinstance(error, UnicodeDecodeError) else str(error)
 
 
 def reason_and_place(error: Exception) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
 from functools import lru_cache
@@ -12,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
-from raysteps.common.text import did_you_mean, join_and
+from raysteps.common.text import clean, did_you_mean, join_and
 from raysteps.course.project import Project
 
 if TYPE_CHECKING:  # what checks the types of documents takes long to load
@@ -113,14 +114,11 @@ def with_option(args: tuple[str, ...], name: str, value: str) -> tuple[str, ...]
     return (*args[:at], *args[at + 2 :], name, value)
 
 
-_MAX_PART = 9
-
-
 def _image(table: dict[str, Any]) -> ImageCase:
     return ImageCase(
-        name=str(table["name"]),
-        scene=str(table["scene"]),
-        args=tuple(str(arg) for arg in table.get("args", [])),
+        name=table["name"],
+        scene=table["scene"],
+        args=tuple(table.get("args", [])),
         max_wrong=0.0 if "max_noise" in table else float(table["max_wrong"]),
         max_share=float(table["max_share"]) if "max_share" in table else None,
         paper_tests=float(table["paper_tests"]) if "paper_tests" in table else None,
@@ -128,17 +126,129 @@ def _image(table: dict[str, Any]) -> ImageCase:
     )
 
 
-def _part(value: object) -> int:
-    if type(value) is not int or not 1 <= value <= _MAX_PART:
-        raise ValueError(f"part: expected a whole number from 1 to {_MAX_PART}, found {value!r}")
-    return value
+# What may stand in a manifest: by key whether a value fits, and what is expected. This is read by every command, so it
+# goes without what checks the forms of documents, which takes longer to load.
+
+_Form = Mapping[str, tuple[Callable[[Any], bool], str]]
+_MAX_PART = 9
+LIMIT_NAMES = ("seconds", "memory_mb", "compile_seconds", "compile_memory_mb", "processes", "file_mb")
 
 
-def _barred(value: object) -> tuple[tuple[str, str], ...]:
-    lists = list(value.values()) if isinstance(value, dict) else [None]
-    if not all(isinstance(names, list) and all(isinstance(name, str) for name in names) for names in lists):
-        raise ValueError(f"barred: expected a list of names of functions for each step, found {value!r}")
-    return tuple((step, name) for step, names in value.items() for name in names) if isinstance(value, dict) else ()
+def _is_text(value: object) -> bool:
+    return isinstance(value, str) and bool(value.strip())
+
+
+def _are_texts(value: object) -> bool:
+    return isinstance(value, list) and all(map(_is_text, value))
+
+
+def _is_positive(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < math.inf
+
+
+def _is_share(value: object) -> bool:
+    return (value == 0 and not isinstance(value, bool)) or (_is_positive(value) and value <= 1)  # type: ignore[operator]
+
+
+def _is_truth(value: object) -> bool:
+    return isinstance(value, bool)
+
+
+def _is_table(value: object) -> bool:
+    return isinstance(value, dict)
+
+
+def _are_barred(value: object) -> bool:
+    return isinstance(value, dict) and all(map(_are_texts, value.values()))
+
+
+_MANIFEST: _Form = {
+    "id": (_is_text, "the name of the step's folder, in quotes"),
+    "title": (_is_text, "text in quotes"),
+    "points": (_is_positive, "a number above 0"),
+    "bonus": (_is_truth, "true or false"),
+    "about": (_is_text, "a sentence in quotes"),
+    "files": (lambda value: _are_texts(value) and len(value) == 1, 'the name of one file, such as ["fog.cpp"]'),
+    "tests": (_are_texts, 'a list of names, such as ["fog_test.cpp"]'),
+    "hints": (_are_texts, "a list of texts"),
+    "picture": (_is_text, "the name of a function, in quotes"),
+    "part": (lambda value: type(value) is int and 1 <= value <= _MAX_PART, f"a whole number from 1 to {_MAX_PART}"),
+    "barred": (_are_barred, "a list of names of functions for each step"),
+    "left_out": (_is_truth, "true or false"),
+    "functions": (lambda value: isinstance(value, dict) and bool(value), "a table of functions"),
+    "weights": (_is_table, "a table of tests, images, hidden and together"),
+    "limits": (_is_table, "a table of limits, such as seconds"),
+    "images": (lambda value: isinstance(value, list) and all(map(_is_table, value)), "a table [[images]] per picture"),
+}
+_WEIGHTS: _Form = dict.fromkeys(("tests", "images", "hidden", "together"), (_is_share, "a share from 0 to 1"))
+_LIMITS: _Form = dict.fromkeys(LIMIT_NAMES, (_is_positive, "a number above 0"))
+_IMAGE: _Form = {
+    "name": (_is_text, "a name in quotes"),
+    "scene": (_is_text, "a file in quotes, as seen from the kit's folder"),
+    "args": (_are_texts, 'a list of words, such as ["--step", "4", "--size", "160x120"]'),
+    "max_wrong": (_is_share, "the share of pixels that may be wrong, from 0 to 1"),
+    "max_share": (_is_share, "the share of objects that a ray may be tested with, from 0 to 1"),
+    "paper_tests": (_is_positive, "a number of tests per ray"),
+    "max_noise": (_is_positive, "a number above 0"),
+}
+_LONGEST = 80  # characters of what was found
+
+
+class _Wrong(Exception):
+    """What is wrong in a manifest, and the keys that lead there."""
+
+    def __init__(self, keys: Sequence[str], words: str) -> None:
+        super().__init__(words)
+        self.keys = keys
+
+
+def _known(key: str, form: _Form) -> str:
+    """The end of a sentence about a key that does not belong there."""
+    if key in _MANIFEST:
+        return f"; `{key} = ...` belongs above the first line in brackets"
+    return did_you_mean(key, form) or f"; known are {', '.join(form)}"
+
+
+def _refuse_misfits(table: Mapping[str, Any], form: _Form, needed: Sequence[str], *keys: str) -> None:
+    for key in table:
+        if key not in form:
+            raise _Wrong((*keys, key), f"unknown key '{clean(key, _LONGEST)}'{_known(key, form)}")
+    for key, value in table.items():
+        fits, expected = form[key]
+        if not fits(value):
+            raise _Wrong((*keys, key), f"{key}: expected {expected}; found {clean(repr(value), _LONGEST)}")
+    for key in needed:
+        if key not in table:
+            raise _Wrong(keys, f"{key} is missing; expected {form[key][1]}")
+
+
+def _refuse_wrong(table: Mapping[str, Any], text: str) -> None:
+    _refuse_misfits(table, _MANIFEST, ("id", "title", "points", "files", "functions", "weights", "limits"))
+    functions = dict.fromkeys(
+        (name for name in table["functions"] if name not in _MANIFEST), (_is_positive, "a weight beside the others")
+    )
+    _refuse_misfits(table["functions"], functions, (), "functions")
+    _refuse_misfits(table["weights"], _WEIGHTS, tuple(_WEIGHTS), "weights")
+    _refuse_misfits(table["limits"], _LIMITS, ("seconds",), "limits")
+    names = list[str]()
+    for at, image in enumerate(table.get("images", [])):
+        limit = "max_noise" if "max_noise" in image else "max_wrong"
+        _refuse_misfits(image, _IMAGE, ("name", "scene", limit), "images", str(at))
+        if image["name"] in names:
+            raise _Wrong(("images", str(at), "name"), f"two pictures are called {image['name']}; expected two names")
+        names.append(image["name"])
+    if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
+        raise _Wrong(("picture",), 'CMake reads this, too; expected a line like `picture = "fog_picture"`')
+    whole = sum(table["weights"].values())
+    if abs(whole - 1) > _ROUNDING:
+        raise _Wrong(("weights",), f"the weights must sum to 1; these sum to {round(whole, 6)}")
+    if names and not table["weights"]["images"]:
+        raise _Wrong(("weights", "images"), "images need a weight: there are [[images]]")
+    if table["weights"]["images"] and not names:
+        raise _Wrong(("weights", "images"), "images have a weight, but there are no [[images]]")
+
+
+_ROUNDING = 1e-9
 
 
 def _refuse_unknown(barred: Step, steps: Sequence[Step], path: Path) -> None:
@@ -150,73 +260,78 @@ def _refuse_unknown(barred: Step, steps: Sequence[Step], path: Path) -> None:
             continue
         if other is None or place not in known:
             meant = did_you_mean(place, known) or "."
-            raise GraderFault(f"{path}: barred: '{place}' is no step before it{meant} Expected the folder of one")
+            raise _fault(path, ["barred"], f"barred: '{place}' is no step before it{meant} Expected the folder of one")
         if name not in other.functions:
             meant = did_you_mean(name, other.functions) or "."
-            raise GraderFault(
-                f"{path}: barred: '{name}' is no function of {place}{meant} Expected one of its [functions]"
-            )
+            words = f"barred: '{name}' is no function of {place}{meant} Expected one of its [functions]"
+            raise _fault(path, ["barred"], words)
+
+
+def _fault(path: Path, keys: Sequence[str], words: str) -> GraderFault:
+    """What is wrong, behind FILE:LINE:COLUMN."""
+    from raysteps.common.documents import place_in_toml  # it takes long to load
+
+    return GraderFault(f"{path}:{place_in_toml(path.read_text('utf-8-sig'), keys)}: {words}")
 
 
 def read_step(path: Path) -> Step:
     """Reads one manifest; a bad one is the kit's fault."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as error:
-        raise _no_manifest(path, error) from error
+        raise GraderFault(f"{path}: not a step manifest: {reason(error)}") from error
     return _parse(text, path)
 
 
-def _no_manifest(path: Path, error: Exception) -> GraderFault:
-    return GraderFault(f"{path}: not a step manifest: {reason(error)}")
+def _table(text: str, path: Path) -> dict[str, Any]:
+    try:
+        table = tomllib.loads(text)
+        _refuse_wrong(table, text)
+    except tomllib.TOMLDecodeError:
+        from raysteps.common.documents import table_of_kit
+
+        return table_of_kit(text, path)  # refuses it, too, and says where
+    except _Wrong as error:
+        raise _fault(path, error.keys, str(error)) from error
+    return table
 
 
 @lru_cache(maxsize=64)
 def _parse(text: str, path: Path) -> Step:
     """Once while it stays the same: a grade asks for all steps seven times."""
-    try:
-        table = tomllib.loads(text)
-        weights = table["weights"]
-        step = Step(
-            id=str(table["id"]),
-            title=str(table["title"]),
-            points=float(table["points"]),
-            bonus=bool(table.get("bonus", False)),
-            files=tuple(table["files"]),
-            functions=tuple(table["functions"]),
-            function_weights=tuple(float(weight) for weight in table["functions"].values()),
-            hints=tuple(table.get("hints", [])),
-            weight_tests=float(weights["tests"]),
-            weight_images=float(weights["images"]),
-            weight_hidden=float(weights["hidden"]),
-            weight_together=float(weights["together"]),
-            seconds=float(table["limits"]["seconds"]),
-            images=tuple(_image(image) for image in table.get("images", [])),
-            memory_mb=int(table["limits"].get("memory_mb", 4096)),
-            more_limits=tuple(
-                (name, float(value)) for name, value in table["limits"].items() if name not in ("seconds", "memory_mb")
-            ),
-            about=" ".join(str(table.get("about", table["title"])).split()),
-            part=_part(table.get("part", 1)),
-            barred=_barred(table.get("barred", {})),
-            left_out=bool(table.get("left_out", False)),
-        )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise _no_manifest(path, error) from error
+    table = _table(text, path)
+    weights, limits = table["weights"], table["limits"]
+    step = Step(
+        id=table["id"],
+        title=table["title"],
+        points=float(table["points"]),
+        bonus=table.get("bonus", False),
+        files=tuple(table["files"]),
+        functions=tuple(table["functions"]),
+        function_weights=tuple(float(weight) for weight in table["functions"].values()),
+        hints=tuple(table.get("hints", [])),
+        weight_tests=float(weights["tests"]),
+        weight_images=float(weights["images"]),
+        weight_hidden=float(weights["hidden"]),
+        weight_together=float(weights["together"]),
+        seconds=float(limits["seconds"]),
+        images=tuple(_image(image) for image in table.get("images", [])),
+        memory_mb=int(limits.get("memory_mb", 4096)),
+        more_limits=tuple(
+            (name, float(value)) for name, value in limits.items() if name not in ("seconds", "memory_mb")
+        ),
+        about=" ".join(table.get("about", table["title"]).split()),
+        part=table.get("part", 1),
+        barred=tuple((place, name) for place, names in table.get("barred", {}).items() for name in names),
+        left_out=table.get("left_out", False),
+    )
     if step.id != path.parent.name:
-        raise GraderFault(
-            f"{path}: its id is {step.id}, but its folder is called {path.parent.name}; expected the same name twice. "
-            f"Was the folder renamed? Call it {step.id} again. Was it copied? Give the copy an id of its own"
+        raise _fault(
+            path,
+            ["id"],
+            f"its id is {step.id}, but its folder is called {path.parent.name}; expected the same name twice. "
+            f"Was the folder renamed? Call it {step.id} again. Was it copied? Give the copy an id of its own",
         )
-    if len(step.files) != 1 or not step.functions:
-        raise GraderFault(f"{path}: expected one file and at least one function")
-    if "picture" in table and not re.search(r'^picture = "[A-Za-z0-9_]+"', text, re.MULTILINE):
-        raise GraderFault(f'{path}: CMake reads this, too; expected a line like `picture = "fog_picture"`')
-    if not all(weight > 0 for weight in step.function_weights):
-        raise GraderFault(f"{path}: [functions]: every function needs a weight above 0")
-    weights_sum = step.weight_tests + step.weight_images + step.weight_hidden + step.weight_together
-    if abs(weights_sum - 1) > 1e-9 or (step.weight_images > 0) != bool(step.images):
-        raise GraderFault(f"{path}: the weights must sum to 1, and images need a weight")
     return step
 
 
@@ -375,15 +490,22 @@ def _by_course(steps: list[Step], course: Course, key: str, names: str, others: 
         raise UsageError(f"{course.place(key, names)}: {key}: {error}") from error
 
 
+def _each_once(course: Course, key: str, told: Sequence[tuple[str, Step]]) -> None:
+    seen = set[str]()
+    for names, step in told:
+        if step.id in seen:
+            where = course.place(key, names)
+            raise UsageError(f"{where}: {key}: step {step.number} stands above already; expected each step once")
+        seen.add(step.id)
+
+
 def _with_points(project: Project, steps: list[Step]) -> list[Step]:
     course = _course(project)
     if course is None or not course.points:
         return steps
-    worth = {
-        step.id: points
-        for names, points in course.points.items()
-        for step in _by_course(steps, course, "points", names)
-    }
+    told = [(names, step) for names in course.points for step in _by_course(steps, course, "points", names)]
+    _each_once(course, "points", told)
+    worth = {step.id: course.points[names] for names, step in told}
     return [replace(step, points=worth.get(step.id, step.points)) for step in steps]
 
 
@@ -413,9 +535,9 @@ def dated_steps(project: Project) -> list[tuple[Step, date]]:
     if course is None:
         return []
     others = of_other_parts(project)
-    return [
-        (step, day) for names, day in course.dates.items() for step in _by_course(steps, course, "steps", names, others)
-    ]
+    told = [(names, step) for names in course.dates for step in _by_course(steps, course, "steps", names, others)]
+    _each_once(course, "steps", told)
+    return [(step, course.dates[names]) for names, step in told]
 
 
 def course_manifests(project: Project) -> dict[str, bytes]:

@@ -1,14 +1,15 @@
 """The known mistakes of a step: solutions/NN-name/mutants.toml."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated
 
 from msgspec import Meta
 
-from raysteps.common.documents import Text, parse_table, read_text
+from raysteps.common.documents import Text, parse_table, place_in_toml, read_text
 from raysteps.common.errors import GraderFault
+from raysteps.common.text import did_you_mean
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import without_markers
@@ -18,7 +19,10 @@ def replaced_once(source: str, find: str, new: str, where: str) -> str:
     """The source with one change; what is to be changed must stand there once."""
     times = source.count(find)
     if times != 1:
-        raise GraderFault(f"{where}: `find` occurs {times} times, expected once")
+        raise GraderFault(
+            f"{where}: `find` occurs {times} times in the reference, expected once; "
+            f"{'take more of what stands around it' if times else 'copy it anew from there'}"
+        )
     return source.replace(find, new)
 
 
@@ -40,6 +44,7 @@ class Mutant:
     find: str
     replace: str
     others: tuple[tuple[str, str], ...] = ()
+    entry: tuple[Path, int] | None = field(default=None, compare=False, repr=False)  # its file, and the which there
 
     def choices(self) -> dict[str, "Mutant"]:
         """All forms of the mistake, the one of the catalogue first, each with a name of its own."""
@@ -49,7 +54,16 @@ class Mutant:
 
     def applied(self, reference: str) -> str:
         """The reference's source with the mistake in it."""
-        return replaced_once(reference, self.find, self.replace, f"{self.step}/mutants.toml: {self.id}")
+        try:
+            return replaced_once(reference, self.find, self.replace, self.id)
+        except GraderFault as error:
+            place = f"{self.step}/mutants.toml" if self.entry is None else _place(*self.entry)
+            raise GraderFault(f"{place}: {error}") from error
+
+
+def _place(path: Path, at: int) -> str:
+    """FILE:LINE:COLUMN of an entry."""
+    return f"{path}:{place_in_toml(read_text(path), ['mutants', str(at)])}"
 
 
 def reference_source(project: Project, step: Step) -> str:
@@ -88,22 +102,40 @@ class _Catalogue:
     mutants: Annotated[tuple[_Entry, ...], Meta(min_length=1)]
 
 
-def _mutant(step: Step, entry: _Entry) -> Mutant:
+_EXPECTED = {
+    "id": 'a name of small letters, digits and hyphens, such as "normal-not-turned"',
+    **dict.fromkeys(("name", "sees", "cause", "hint"), "a sentence"),
+}
+
+
+def _mutant(step: Step, entry: _Entry, path: Path, at: int) -> Mutant:
     if entry.function not in step.functions:
-        raise GraderFault(f"{step.id}/mutants.toml: {entry.id}: {entry.function} is no function of the step")
+        meant = did_you_mean(entry.function, step.functions) or f"; expected one of {', '.join(step.functions)}"
+        raise GraderFault(f"{_place(path, at)}: {entry.id}: {entry.function} is no function of the step{meant}")
     name, sees, cause, hint = (" ".join(text.split()) for text in (entry.name, entry.sees, entry.cause, entry.hint))
-    others = tuple((other.find, other.replace) for other in entry.others)
-    return Mutant(entry.id, step.id, entry.function, name, sees, cause, hint, entry.find, entry.replace, others)
+    return Mutant(
+        id=entry.id,
+        step=step.id,
+        function=entry.function,
+        name=name,
+        sees=sees,
+        cause=cause,
+        hint=hint,
+        find=entry.find,
+        replace=entry.replace,
+        others=tuple((other.find, other.replace) for other in entry.others),
+        entry=(path, at),
+    )
 
 
 @lru_cache(maxsize=64)
 def _parse(text: str, step: Step, path: Path) -> tuple[Mutant, ...]:
-    catalogue = parse_table(text, path, "a catalogue of mistakes", _Catalogue)
-    mutants = tuple(_mutant(step, entry) for entry in catalogue.mutants)
+    catalogue = parse_table(text, path, "a catalogue of mistakes", _Catalogue, _EXPECTED)
+    mutants = tuple(_mutant(step, entry, path, at) for at, entry in enumerate(catalogue.mutants))
     names = [mutant.id for mutant in mutants]
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice is not None:
-        raise GraderFault(f"{path}: the id {twice} occurs twice")
+    for at, name in enumerate(names):
+        if name in names[:at]:
+            raise GraderFault(f"{_place(path, at)}: the id {name} occurs twice; expected another one")
     return mutants
 
 

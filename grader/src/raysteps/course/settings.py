@@ -113,6 +113,9 @@ def _refuse_wrong_keys(table: Mapping[str, object], text: str, path: Path) -> No
             raise UsageError(f"{path}:{where}: unknown key '{clean(key)}'{advice}")
         if key in ("steps", "points") and isinstance(value, dict):
             for name, inner in value.items():
+                if name in _EXPECTED:
+                    where = place_in_toml(text, [key, name])
+                    raise UsageError(f"{path}:{where}: {key}: `{name} = ...` belongs above the first line in brackets")
                 _refuse_wrong(key, inner, name, text, path)
         else:
             _refuse_wrong(key, value, None, text, path)

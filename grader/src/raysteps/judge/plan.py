@@ -1,6 +1,6 @@
 """What the judge asks of a step: solutions/NN-name/cases.toml."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -8,8 +8,9 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from raysteps.common.documents import Text, parse_table, read_text
+from raysteps.common.documents import Text, parse_table, place_in_toml, read_text
 from raysteps.common.errors import GraderFault
+from raysteps.common.text import did_you_mean
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.functions import AGAIN, functions_of
@@ -100,22 +101,52 @@ class _PlanTable:
     random_scenes: tuple[RandomPlan, ...] = ()
 
 
-def _check_names(plan: Plan, step: Step) -> None:
+_EXPECTED = {
+    "of": "the name of a picture of step.toml",
+    "moves": '"camera" or "camera and spheres"',
+    "size": 'a size in pixels, such as "151x113"',
+    "weight": "a number above 0",
+    "max_wrong": "the share of pixels that may be wrong, from 0 to 1",
+    "max_share": "the share of objects that a ray may be tested with, up to 1",
+    "args": 'a list of words, such as ["--step", "2", "--size", "120x90"]',
+    "spheres": "a whole number from 0 to 2000",
+    "triangles": "a whole number from 0 to 2000",
+}
+
+
+def _wrong_kinds(function: FunctionPlan, kinds: Sequence[str]) -> tuple[str, str]:
+    """The kind that is wrong, and how; nothing where all are as the judge knows them."""
+    found = [kind for kind in function.cases if kind != AGAIN]
+    for kind in found:
+        if kind not in kinds:
+            return kind, f"'{kind}' is no kind of cases of {function.name}{did_you_mean(kind, kinds) or '.'}"
+    for kind in kinds:
+        if kind not in found:
+            return "", f"'{kind}' is missing, a kind of cases of {function.name};"
+    return "", "" if found == list(kinds) else "the kinds of cases stand in another order;"
+
+
+def _check_names(plan: Plan, step: Step, text: str, path: Path) -> None:
     """Every function of the step with every kind of its cases, and a twin for every picture."""
     known = functions_of(step.number)
     if not known and not plan.functions:
         pass  # a step of one's own, without a judge.py: the judge looks at pictures only
     elif [function.name for function in plan.functions] != list(step.functions) or set(known) != set(step.functions):
-        raise GraderFault(f"{step.id}: cases.toml must list the functions of step.toml, in its order")
+        raise GraderFault(
+            f"{path}:{place_in_toml(text, ['functions'])}: must list the functions of step.toml, in its order: "
+            f"{', '.join(step.functions)}; found {', '.join(it.name for it in plan.functions) or 'none'}"
+        )
     for function in plan.functions:
         kinds = [group.name for group in known[function.name].groups]
-        if list(function.cases) != [*kinds, AGAIN]:
-            raise GraderFault(f"{step.id}: cases.toml must list for {function.name}, in this order: {', '.join(kinds)}")
+        kind, wrong = _wrong_kinds(function, kinds)
+        if wrong:
+            place = place_in_toml(text, ["functions", function.name, "cases", kind])
+            raise GraderFault(f"{path}:{place}: {wrong} expected, in this order: {', '.join(kinds)}")
     twins, pictures = [twin.twin_of for twin in plan.twins], [image.name for image in step.images]
     if twins != pictures:
         raise GraderFault(
-            f"{step.id}: cases.toml must list a twin for each picture of step.toml, in its order: "
-            f"{', '.join(pictures)}; found {', '.join(twins) or 'none'}"
+            f"{path}:{place_in_toml(text, ['twins', '0'])}: must list a twin for each picture of step.toml, in its "
+            f"order: {', '.join(pictures)}; found {', '.join(twins) or 'none'}"
         )
 
 
@@ -136,14 +167,14 @@ def _function_plan(step: Step, name: str, table: _FunctionTable) -> FunctionPlan
 
 @lru_cache(maxsize=64)
 def _parse(text: str, step: Step, path: Path) -> Plan:
-    table = parse_table(text, path, "a plan of hidden cases", _PlanTable)
+    table = parse_table(text, path, "a plan of hidden cases", _PlanTable, _EXPECTED)
     scenes = sum(scene.weight for scene in table.twins) + sum(scene.weight for scene in table.random_scenes)
     plan = Plan(
         tuple(_function_plan(step, name, it) for name, it in (table.functions or {}).items()),
         tuple(TwinPlan(twin.of, twin.moves, twin.size, twin.max_wrong, twin.weight / scenes) for twin in table.twins),
         tuple(replace(scene, weight=scene.weight / scenes) for scene in table.random_scenes),
     )
-    _check_names(plan, step)
+    _check_names(plan, step, text, path)
     return plan
 
 
