@@ -183,6 +183,19 @@ def test_it_is_accessible_and_never_wider_than_the_screen(
     assert_fits_all_screens(shown)
 
 
+def test_no_number_is_broken_and_a_long_name_is(open_page: OpenPage, page: Path) -> None:
+    shown = open_page(page, width=320)
+    heights = shown.eval_on_selector_all(
+        ".tiles dd", "all => all.map(one => { one.textContent = '100'; return one.getClientRects()[0].height; })"
+    )
+    assert max(heights) < 40, "one line of 20 pixels"
+    name = shown.locator(".pairs-table tbody th").first
+    name.evaluate("one => { one.textContent = 'x'.repeat(200); }")
+    box = name.bounding_box()
+    assert box is not None
+    assert box["width"] < 320
+
+
 def test_a_number_leads_to_the_other_side(open_page: OpenPage, page: Path) -> None:
     shown = open_page(page)
     row = shown.locator(".pairs-table tbody tr").first

@@ -94,6 +94,15 @@ def test_it_is_accessible_and_never_wider_than_the_screen(
     assert_fits_all_screens(page)
 
 
+def test_without_scripts_it_says_what_is_not_there(open_page: OpenPage, gallery: Path) -> None:
+    page = open_page(gallery, scripts=False)
+    assert page.locator("#picture img").first.is_visible()
+    said = (
+        "<noscript><p>The line, the walk and the other scenes need scripts."  # which a browser of tests does not show
+    )
+    assert said in gallery.read_text("utf-8")
+
+
 def test_it_begins_with_the_first_and_the_last_and_then_walks(open_page: OpenPage, gallery: Path) -> None:
     page = open_page(gallery)
     assert _shown(page) == _colours(0, 0, 7)

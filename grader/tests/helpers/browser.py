@@ -62,15 +62,18 @@ class Watched:
         *,
         calm: bool = False,
         touch: bool = False,
+        scripts: bool = True,
         before: str = "",
     ) -> "Page":
         """Opens a file, or an address that the test allowed. `calm` is a reader who wants no motion, `touch` one with
-        fingers; `before` is a script that runs before those of the page."""
+        fingers, and without `scripts` one who has switched them off; `before` is a script that runs before those of the
+        page."""
         context = self._browser.new_context(
             viewport={"width": width, "height": height},
             color_scheme=scheme,
             reduced_motion="reduce" if calm else "no-preference",
             has_touch=touch,
+            java_script_enabled=scripts,
             permissions=["clipboard-read", "clipboard-write"],
         )
         self._contexts.append(context)

@@ -1,5 +1,6 @@
 """The page of a pixel's inside, in a real browser."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -206,6 +207,28 @@ def test_two_trees_beside_each_other(tmp_path: Path, open_page: OpenPage, width:
     assert page.evaluate("document.querySelector('pixel-inside').name") == "reference"
     assert_accessible(page)
     assert_fits_all_screens(page)
+
+
+def test_rays_that_are_deep_in_the_tree_fit_with_large_text(tmp_path: Path, open_page: OpenPage) -> None:
+    record = ball_record()
+    (ray,) = record.ray.bounces
+    for depth in range(3, 7):
+        deeper = replace(ray, depth=depth, bounces=[])
+        ray.bounces = [deeper]
+        ray = deeper
+    write_page(record, None, None, tmp_path / "inside.html")
+    page = open_page(tmp_path / "inside.html")
+    page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
+    assert page.get_by_text("reflected ray, depth 6").first.is_visible()
+    assert_fits_all_screens(page)
+
+
+def test_without_scripts_the_tree_says_it_in_words(tmp_path: Path, open_page: OpenPage) -> None:
+    write_page(ball_record(), None, None, tmp_path / "inside.html")
+    page = open_page(tmp_path / "inside.html", scripts=False)
+    assert page.get_by_text("eye ray").first.is_visible()
+    said = "<noscript><p>The rays in three dimensions need scripts."  # which a browser of tests does not show
+    assert said in (tmp_path / "inside.html").read_text("utf-8")
 
 
 def test_without_webgl_the_tree_is_still_there(page: "Page") -> None:

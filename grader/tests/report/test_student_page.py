@@ -355,6 +355,14 @@ def test_the_first_screen_shows_the_picture_of_the_next_thing_to_do(
     assert_no_sideways_scrolling(page)
 
 
+def test_without_scripts_no_room_is_left_for_the_viewer(open_page: OpenPage, steps: list[Step], tmp_path: Path) -> None:
+    page = open_page(write_student_page(_mixed(steps, tmp_path), tmp_path, steps), width=1400, scripts=False)
+    assert not page.get_by_role("heading", name="Your pictures").is_visible()
+    box = page.locator(".next").bounding_box()
+    assert box is not None
+    assert box["width"] > 0.5 * 1400
+
+
 @pytest.mark.parametrize("width", [360, 390])
 def test_on_a_phone_every_table_is_seen_whole_and_breaks_no_word(
     open_page: OpenPage, steps: list[Step], tmp_path: Path, width: int
