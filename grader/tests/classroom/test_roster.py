@@ -76,7 +76,10 @@ def test_a_column_that_is_passed_over_is_told(tmp_path: Path, header: str, told:
         ("id,email,time\n,,2026-11-20T10:00\n", r"roster\.csv:2: expected an id"),
         ("id,submitted_at\n7,yesterday\n", r"roster\.csv:2: submitted_at is 'yesterday'"),
         ("id,submitted_at\n7,2026-11-20\n", r"roster\.csv:2: submitted_at"),
-        ('id,name\n7,"Ann\n', r"roster\.csv:\d: is not CSV"),
+        (
+            'id,name\n6,Eva\n7,"Ann\n8,Bob\n',
+            r"roster\.csv:3: is not CSV: a cell that begins with a quotation mark has no",
+        ),
     ],
 )
 def test_messages_name_the_line(tmp_path: Path, text: str, message: str | None) -> None:
@@ -92,6 +95,9 @@ def test_other_encodings_are_refused_by_line(tmp_path: Path) -> None:
     path = tmp_path / "roster.csv"
     path.write_bytes(b"id,name\n7,Jos\xe9\n")
     with pytest.raises(UsageError, match=r"roster\.csv:2:\d+: is not UTF-8"):
+        read_roster(path)
+    path.write_bytes(b"PK\x03\x04\x14\x00\xe9")
+    with pytest.raises(UsageError, match=r"roster\.csv: is a workbook or an archive; save the roster as `CSV UTF-8`"):
         read_roster(path)
     with pytest.raises(UsageError, match="cannot be read"):
         read_roster(tmp_path / "missing.csv")

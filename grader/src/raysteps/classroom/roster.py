@@ -107,6 +107,9 @@ def _time(text: str, where: str) -> str:
     return moment.isoformat()
 
 
+_ZIP = b"PK\x03\x04"  # as the files of spreadsheets begin
+
+
 def _text(path: Path) -> str:
     try:
         with path.open("rb") as file:
@@ -116,6 +119,8 @@ def _text(path: Path) -> str:
         raise UsageError(f"{path}: the roster cannot be read: {reason(error)}; {expected}{like(path)}") from error
     if len(data) > _MAX_BYTES:
         raise UsageError(f"{path}: is larger than {_MAX_BYTES >> 20} MB; expected a roster")
+    if data.startswith(_ZIP):
+        raise UsageError(f"{path}: is a workbook or an archive; save the roster as `CSV UTF-8`")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -124,12 +129,16 @@ def _text(path: Path) -> str:
 
 def _rows(text: str, path: Path) -> Iterable[tuple[int, list[str]]]:
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter_of(text), strict=True)
+    line = 1
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
                 yield reader.line_num, row
+            line = reader.line_num + 1
     except csv.Error as error:
-        raise UsageError(f"{path}:{reader.line_num}: is not CSV: {error}") from error
+        open_quote = "a cell that begins with a quotation mark has no second one at its end"
+        why = open_quote if "end of data" in str(error) else str(error)
+        raise UsageError(f"{path}:{line}: is not CSV: {why}") from error
 
 
 def _cell(field: str, text: str) -> str:
