@@ -255,10 +255,14 @@ int open_each(const Words& words) {
     return 0;
 }
 
+/// Of a file of its own: with one of a file that others open, these would wait.
+long ask_for_a_lease() { return fcntl(open("/tmp/own", O_RDONLY | O_CREAT, 0600), F_SETLEASE, F_RDLCK); }
+
 /// Which of the system's services answer that a ray tracer has no use for.
 int ask_system(const Words&) {
     const std::map<std::string, std::function<long()>> services{
         {"keys", [] { return syscall(SYS_keyctl, 0, -3, 1); }},
+        {"lease", ask_for_a_lease},
         {"memory", [] { return static_cast<long>(memfd_create("asked", 0)); }},
         {"namespaces", [] { return static_cast<long>(unshare(CLONE_NEWNET)); }},
         {"pair", [] { int pair[2]; return static_cast<long>(socketpair(AF_UNIX, SOCK_DGRAM, 0, pair)); }},

@@ -89,7 +89,7 @@ def restrict_system_calls_by_seccomp(instructions: bytes) -> None:
 
 _LOAD, _EQUAL, _AT_LEAST, _ANY_BIT, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 _ALLOW, _KILL, _ERRNO = 0x7FFF0000, 0x80000000, 0x00050000
-_NUMBER, _ARCHITECTURE, _FIRST_ARGUMENT = 0, 4, 16
+_NUMBER, _ARCHITECTURE, _FIRST_ARGUMENT, _SECOND_ARGUMENT = 0, 4, 16, 24
 _X32 = 0x40000000
 _NEW_NAMESPACES = 0x7E020000  # CLONE_NEWNS, NEWCGROUP, NEWUTS, NEWIPC, NEWUSER, NEWPID, NEWNET
 
@@ -113,7 +113,8 @@ _AARCH64 = {
     "umount2": 39, "pivot_root": 41, "open_tree": 428, "move_mount": 429, "fsopen": 430,
 }  # fmt: skip
 _CLONE3 = 435
-_KNOWN = {"x86_64": (0xC000003E, _X86_64, 56, 302), "aarch64": (0xC00000B7, _AARCH64, 220, 261)}
+_SET_LEASE = 1024  # of fcntl: whoever else opens that file waits for up to 45 s
+_KNOWN = {"x86_64": (0xC000003E, _X86_64, 56, 302, 72), "aarch64": (0xC00000B7, _AARCH64, 220, 261, 25)}
 
 
 def _step(code: int, value: int, if_true: int = 0, if_false: int = 0) -> bytes:
@@ -124,7 +125,7 @@ def syscall_filter() -> bytes | None:
     """The instructions; none for a machine whose numbers are not known here."""
     if sys.platform != "linux" or os.uname().machine not in _KNOWN or sys.maxsize < 1 << 32:
         return None
-    architecture, numbers, clone, prlimit = _KNOWN[os.uname().machine]
+    architecture, numbers, clone, prlimit, fcntl = _KNOWN[os.uname().machine]
     refuse = _step(_RETURN, _ERRNO | errno.EPERM)
     steps = [_step(_LOAD, _ARCHITECTURE), _step(_EQUAL, architecture, 1, 0), _step(_RETURN, _KILL)]
     steps += [_step(_LOAD, _NUMBER), _step(_AT_LEAST, _X32, 0, 1), refuse]
@@ -132,6 +133,7 @@ def syscall_filter() -> bytes | None:
         steps += [_step(_EQUAL, number, 0, 1), refuse]
     # Only a process's own limits, which go by the number 0: a limit can end another process.
     steps += [_step(_EQUAL, prlimit, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_EQUAL, 0, 1, 0), refuse]
+    steps += [_step(_EQUAL, fcntl, 0, 3), _step(_LOAD, _SECOND_ARGUMENT), _step(_EQUAL, _SET_LEASE, 0, 1), refuse]
     # The C library falls back from clone3, whose flags a filter cannot see, to clone.
     steps += [_step(_EQUAL, _CLONE3, 0, 1), _step(_RETURN, _ERRNO | errno.ENOSYS)]
     steps += [_step(_EQUAL, clone, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_ANY_BIT, _NEW_NAMESPACES, 0, 1), refuse]
