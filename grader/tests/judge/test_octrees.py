@@ -60,6 +60,9 @@ def test_right_trees(tree: str) -> None:
         (f"tree {_ALL} 0 2 {_WEST} 2 0 2 0 {_EAST} 1 1 0", "no surface of the scene"),
         ("tree 0 0 0 0 0 0 0 0", "in no box"),
         ("tree nan nan nan nan nan nan 2 0 1 0", "holds a number that is NaN"),
+        (f"tree nan nan nan nan nan nan 0 1 {_ALL} 2 0 1 0", "holds a number that is NaN"),  # a search ends at the root
+        (f"tree 5 5 5 6 6 6 0 1 {_ALL} 2 0 1 0", "in no box"),
+        (f"tree {_ALL} 0 2 5 5 5 6 6 6 0 1 {_WEST} 1 0 0 {_EAST} 1 1 0", "in no box"),
     ],
 )
 def test_wrong_trees(tree: str, said: str) -> None:

@@ -1,6 +1,5 @@
 """Answers that are trees: any division of space that loses no surface is right."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
@@ -58,9 +57,9 @@ _SURFACES_AT_ONCE = 8  # which bounds the memory for any tree, and soon ends the
 class Boxes:
     """One array for each side of all of them. A margin makes every box larger, and a negative one smaller."""
 
-    def __init__(self, low: Sequence[Vector], high: Sequence[Vector]) -> None:
-        self._low = np.array(low).T.copy()
-        self._high = np.array(high).T.copy()
+    def __init__(self, low: Points, high: Points) -> None:
+        self._low = low.T.copy()
+        self._high = high.T.copy()
 
     def around(self, low: Points, high: Points, margin: float) -> _Flags:
         """Of each extent (row) and box (column) whether the box holds the whole extent."""
@@ -174,10 +173,19 @@ def tree_words(tree: Tree) -> str:
     return f"a tree of {len(tree.nodes)} boxes; {leaves.sum()} leaves with {mean:.3g} surfaces on average"
 
 
+def _reached(tree: Tree) -> Boxes:
+    """What a search sees of each box: the part in all boxes around it. Nothing where a number is NaN."""
+    low, high = (np.array([getattr(node, side) for node in tree.nodes]) for side in ("low", "high"))
+    for place, node in enumerate(tree.nodes):
+        low[place] = np.maximum(low[place], low[node.parent])
+        high[place] = np.minimum(high[place], high[node.parent])
+    return Boxes(low, high)
+
+
 def _lost(tree: Tree, surfaces: tuple[Surface, ...], own: _Table, every: _Table) -> str:
     points = np.stack(points_on(surfaces))
     margin = _MARGIN * float((points.max(axis=(0, 1)) - points.min(axis=(0, 1))).max())
-    boxes = Boxes([node.low for node in tree.nodes], [node.high for node in tree.nodes])
+    boxes = _reached(tree)
     leaves = np.array([node.is_leaf for node in tree.nodes])
     for start in range(0, len(points), _SURFACES_AT_ONCE):
         some = slice(start, start + _SURFACES_AT_ONCE)
