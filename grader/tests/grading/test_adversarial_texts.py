@@ -79,6 +79,8 @@ _BUILD_LOGS = [
     "LNK2005: ( already define" * (_MEGABYTE // 25),
     "a:1:1: error:" * (_MEGABYTE // 13),
     "a(1): error C" * (_MEGABYTE // 13),
+    "a" * (_MEGABYTE - 20) + ":1:1: error: b",
+    "a" * (_MEGABYTE - 20) + "(1): error C1: b",
     "\x1b[0;" * (_MEGABYTE // 4),
     "error:\n" * (_MEGABYTE // 7),
     "\n" * _MEGABYTE,

@@ -49,7 +49,8 @@ def _errors(output: str) -> list[_Error]:
 
 
 def _error_at(place: re.Match[str], text: str) -> _Error:
-    return _Error(re.split(r"[/\\]", place["path"])[-1], int(place["line"]), int(place["column"] or 0), text)
+    file = shorten(re.split(r"[/\\]", place["path"])[-1], 200)  # a source can say that its lines come from any
+    return _Error(file, int(place["line"]), int(place["column"] or 0), text)
 
 
 def _caused_by(output: str, file: str, error: _Error) -> list[_Error]:
