@@ -290,6 +290,9 @@ int crash(const Words&) {
     return 0;
 }
 
+/// Whether it may choose whom the kernel ends for want of memory.
+int spare_itself(const Words&) { return open("/proc/self/oom_score_adj", O_WRONLY) >= 0 ? 0 : answer_errno(); }
+
 const std::map<std::string, std::function<int(const Words&)>> ways{
     {"abort", [](const Words&) -> int { std::abort(); }},
     {"ask", ask_system},
@@ -299,6 +302,7 @@ const std::map<std::string, std::function<int(const Words&)>> ways{
     {"connect", connect_to},
     {"crash", crash},
     {"send", send_to},
+    {"spare", spare_itself},
     {"daemon", leave_a_daemon},
     {"eat", eat},
     {"environment", environment},

@@ -264,6 +264,13 @@ def test_memory_is_limited(any_sandbox: Sandbox, misbehave: Misbehave, eaters: i
         assert ran.stopped == "memory"
 
 
+def test_the_kernel_ends_a_submission_before_a_grader(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    if sandbox.isolation.name != "bubblewrap":
+        pytest.skip("only a strong sandbox keeps a neighbour's memory from a grader")
+    assert misbehave(sandbox, "read", "/proc/self/oom_score_adj").outcome.stdout == "1000\n"
+    assert misbehave(sandbox, "spare").outcome.code == 1
+
+
 def test_memory_that_no_process_owns_is_refused(sandbox: Sandbox, misbehave: Misbehave) -> None:
     assert misbehave(sandbox, "hoard", "40").outcome.code == 1
 

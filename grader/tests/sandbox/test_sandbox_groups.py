@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from raysteps.common.errors import GraderFault
 from raysteps.sandbox import cgroups
 from raysteps.sandbox.cgroups import Group, Parents, find_parents
 from raysteps.sandbox.monitor import Usage
@@ -35,6 +36,30 @@ def test_usage_of_version_2(parents: Parents, tmp_path: Path) -> None:
     assert group.usage() == Usage(cpu_seconds=1.5, out_of_memory=False)
     (tmp_path / "one" / "memory.events").write_text("low 0\noom 3\noom_kill 1\n", encoding="ascii")
     assert group.usage().out_of_memory
+
+
+@pytest.mark.parametrize("unified", [False, True])
+def test_a_victim_of_others_is_no_glutton(tmp_path: Path, *, unified: bool) -> None:
+    group = Group(Parents(tmp_path, tmp_path, tmp_path, unified=unified), "one", Limits(memory_mb=400))
+    folder = tmp_path / "one"
+    events, peak = ("memory.events", "memory.peak") if unified else ("memory.oom_control", "memory.max_usage_in_bytes")
+    (folder / events).write_text("oom_kill 0\n", encoding="ascii")
+    group.require_memory_of_the_machine()
+    (folder / events).write_text("oom_kill 1\n", encoding="ascii")
+    (folder / peak).write_text(f"{400 << 20}\n", encoding="ascii")
+    group.require_memory_of_the_machine()
+    (folder / peak).write_text(f"{40 << 20}\n", encoding="ascii")
+    with pytest.raises(GraderFault, match="had no more memory"):
+        group.require_memory_of_the_machine()
+
+
+def test_an_older_kernel_tells_only_that_the_limit_was_met(parents: Parents, tmp_path: Path) -> None:
+    group = Group(parents, "one", Limits())
+    (tmp_path / "one" / "memory.events").write_text("max 5\noom 1\noom_kill 1\n", encoding="ascii")
+    group.require_memory_of_the_machine()
+    (tmp_path / "one" / "memory.events").write_text("max 0\noom 0\noom_kill 1\n", encoding="ascii")
+    with pytest.raises(GraderFault):
+        group.require_memory_of_the_machine()
 
 
 def test_the_nearest_group_that_passes_memory_and_processes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

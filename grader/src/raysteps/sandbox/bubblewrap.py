@@ -305,15 +305,26 @@ class Bubblewrap:
             if group is not None:
                 group.join(first)
             self._limit_processes(first, task.limits)
+            if not task.tools:
+                _offer_to_the_kernel(first)
             control.open_gate()
             seen = monitor(process, start, task, running, wire)
             # What the kernel ended with its namespace, nobody waited for; there the last look has to do.
             cpu = max(seen.cpu_seconds + running.reap(), seen.watched_cpu_seconds)
+            if group is not None:
+                group.require_memory_of_the_machine()
             code = control.exit_code()
             if code is None and not seen.stopped and seen.status not in _KILLED:
                 raise _failed(seen)
             ran = TaskResult(outcome(seen, code), inside.outputs(), cpu, seen.stopped)
             return ran if asked is None else asked.result(ran)
+
+
+def _offer_to_the_kernel(first: int) -> None:
+    """Where the machine has no more memory, the kernel is to end the largest program of a submission, and no grader and
+    no compiler, each of which is larger than one of a crowd."""
+    with suppress(OSError):
+        Path(f"/proc/{first}/oom_score_adj").write_text("1000", encoding="ascii")
 
 
 def _options_of(program: str) -> frozenset[str]:

@@ -9,12 +9,14 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from raysteps.common.errors import GraderFault
 from raysteps.sandbox.monitor import Usage
 from raysteps.sandbox.task import Limits
 
 _MEGABYTE = 1 << 20
 _REMOVE_SECONDS = 2.0
 _PREFIX = "raysteps-"
+_MUCH = 0.25  # of the memory that a task may have: an honest one stays below it
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,7 @@ class Group:
 
     def __init__(self, parents: Parents, name: str, limits: Limits) -> None:
         self._unified = parents.unified
+        self._memory_limit = limits.memory_mb * _MEGABYTE
         self._memory = parents.memory / name
         self._pids = parents.pids / name
         self._cpu = parents.cpu and parents.cpu / name
@@ -44,7 +47,7 @@ class Group:
         self._limit(limits)
 
     def _limit(self, limits: Limits) -> None:
-        memory = str(limits.memory_mb * _MEGABYTE)
+        memory = str(self._memory_limit)
         if self._unified:
             (self._memory / "memory.max").write_text(memory, encoding="ascii")
             swap = self._memory / "memory.swap.max"
@@ -72,8 +75,26 @@ class Group:
 
     def usage(self) -> Usage:
         """The kernel holds the memory limit itself, so its amount is of no interest here."""
-        events = self._memory / ("memory.events" if self._unified else "memory.oom_control")
-        return Usage(cpu_seconds=self._cpu_seconds(), out_of_memory=_counter(events, "oom_kill") > 0)
+        return Usage(cpu_seconds=self._cpu_seconds(), out_of_memory=self._was_killed_in())
+
+    def _was_killed_in(self) -> bool:
+        """Whether the kernel ended one of its processes for want of memory."""
+        return _counter(self._memory / ("memory.events" if self._unified else "memory.oom_control"), "oom_kill") > 0
+
+    def _took_much(self) -> bool:
+        peak = self._memory / ("memory.peak" if self._unified else "memory.max_usage_in_bytes")
+        if peak.exists():
+            return int(peak.read_bytes()) >= _MUCH * self._memory_limit
+        return _counter(self._memory / "memory.events", "max") > 0  # an older kernel tells that it met its limit
+
+    def require_memory_of_the_machine(self) -> None:
+        """A task that took little, and was ended for want of memory all the same, is a victim of others. To be asked
+        when all its processes are dead."""
+        if self._was_killed_in() and not self._took_much():
+            raise GraderFault(
+                "the system ended a program of the submission because the machine, or the container, had no more "
+                "memory, not because of what this program took: grade fewer at a time (--jobs)"
+            )
 
 
 def _remove(folder: Path) -> None:
