@@ -85,6 +85,15 @@ def test_half_a_pixel() -> None:
     assert found.id == "shifted-by-half"
 
 
+def test_what_is_stretched_is_not_moved_by_half_a_pixel() -> None:
+    """On average it is: nothing at the left edge, a whole pixel at the right one."""
+    x = np.arange(40) + np.linspace(0, 1, 40)
+    slope = np.rint(np.stack([20 + 5.2 * x, 230 - 5 * x, 10 + 3 * x], axis=1)).astype(np.uint8)
+    before = np.rint(np.stack([20 + 5.2 * np.arange(40), 230 - 5 * np.arange(40), 10 + 3 * np.arange(40)], axis=1))
+    stretched, right = (np.repeat(row[np.newaxis], 30, axis=0) for row in (slope, before.astype(np.uint8)))
+    assert transformation_of(_picture(stretched, right), {}) is None
+
+
 def test_the_factor_is_said() -> None:
     found = transformation_of(_picture((_reference() * 0.5).astype(np.uint8)), {})
     assert found is not None

@@ -52,7 +52,7 @@ def _shifted(picture: Picture) -> Iterator[Transformed]:
     reference = picture.reference.astype(np.float64)
     for name, down, across in (("x", 0, 1), ("x", 0, -1), ("y", 1, 0), ("y", -1, 0), ("xy", 1, 1), ("xy", -1, -1)):
         moved = np.roll(reference, (down, across), axis=(0, 1))
-        for title, values, tolerance in (("one", moved, 2), ("half", _half(reference, down, across), 3)):
+        for title, values, tolerance in (("one", moved, 2), ("half", _half(reference, down, across), 1)):
             whole = _levels(values)
             for border in ((0, ...), (-1, ...), (slice(None), 0), (slice(None), -1)):
                 whole[border] = picture.mine[border]
