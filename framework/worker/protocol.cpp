@@ -99,6 +99,9 @@ Camera read_camera(TokenReader& words) {
     camera.angle = words.number();
     camera.width = words.whole();
     camera.height = words.whole();
+    camera.hither = words.number();
+    camera.lens_radius = words.number();
+    camera.focal_distance = words.number();
     return camera;
 }
 

@@ -60,7 +60,7 @@ private:
 };
 
 [[nodiscard]] Ray read_ray(TokenReader& words);          ///< origin, direction
-[[nodiscard]] Camera read_camera(TokenReader& words);    ///< from, at, up, angle, width, height
+[[nodiscard]] Camera read_camera(TokenReader& words);    ///< from, at, up, angle, size, hither, lens
 [[nodiscard]] ViewFrame read_frame(TokenReader& words);  ///< right, up, forward, half width, half height
 [[nodiscard]] Fill read_fill(TokenReader& words);        ///< colour, kd, ks, shine, transmittance, index
 [[nodiscard]] Light read_light(TokenReader& words);      ///< position, colour

@@ -10,7 +10,8 @@ namespace raysteps {
 namespace {
 
 constexpr int k_levels = 3;
-constexpr int k_deepest = 500;  // what has more levels is not told, either
+constexpr std::size_t k_few = 2;  // surfaces, for which one box will do
+constexpr int k_deepest = 500;    // what has more levels is not told, either
 
 bool apart(const Box& a, const Box& b) {
     return glm::any(glm::greaterThan(a.min, b.max)) || glm::any(glm::greaterThan(b.min, a.max));
@@ -85,7 +86,8 @@ Node simple_tree(const SurfaceList& surfaces) {
         all.extend(surface->bounds());
     }
     const glm::vec3 padding = 1e-3F * (all.max - all.min) + 1e-3F;
-    return surfaces.empty() ? Node{} : simple_node({all.min - padding, all.max + padding}, surfaces, 1);
+    const int level = surfaces.size() <= k_few ? k_levels : 1;
+    return surfaces.empty() ? Node{} : simple_node({all.min - padding, all.max + padding}, surfaces, level);
 }
 
 void write_tree(TokenWriter& answer, const Node& root, const SurfaceList& surfaces) {

@@ -5,7 +5,8 @@
 
 namespace raysteps {
 
-/// The paper's three levels, 1, 8 and 64 boxes, by the bounds of the surfaces; no step takes part in it.
+/// The paper's three levels, 1, 8 and 64 boxes, by the bounds of the surfaces, or a single box for two of them or one;
+/// no step takes part in it.
 [[nodiscard]] Node simple_tree(const SurfaceList& surfaces);
 
 /// Each node: its box, how many surfaces and their numbers (-1: unknown), how many children, and these.

@@ -100,7 +100,10 @@ TEST_CASE("view_frame turns a slanted up vector upright", "[01-camera-rays][view
 
 TEST_CASE("view_frame: the angle is the full vertical one in degrees", "[01-camera-rays][view_frame]") {
     Camera camera = straight_camera(100, 100);
-    INFO("half_height = tan(angle / 2)");
+    camera.hither = 0.5F;
+    camera.lens_radius = 0.2F;
+    camera.focal_distance = 7.0F;
+    INFO("half_height = tan(angle / 2): the window is at distance 1, whatever hither, lens and focal_distance are");
     camera.angle = 90.0F;
     CHECK(view_frame(camera).half_height == about(1.0));
     camera.angle = 60.0F;

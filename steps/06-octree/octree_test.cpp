@@ -157,6 +157,13 @@ TEST_CASE("closest_hit_in_octree: the same hits as without the tree", "[06-octre
         check_same_hits(columns_around(triangles.surfaces()), triangles.surfaces(),
                         rays(30, [](int i) { return Ray{{static_cast<float>(i) + 0.3F, 0.3F, 5.0F}, k_down}; }));
     }
+    SECTION("a tree that is a single leaf") {
+        Scene one;
+        one.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
+        const Node leaf{{{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}}, one.surfaces(), {}};
+        check_same_hits(leaf, one.surfaces(), rays(30, [&](int) { return random.ray(5.0F); }));
+        check_same_hits(leaf, one.surfaces(), {{{0.0F, 0.0F, 5.0F}, k_down}});
+    }
     SECTION("no surfaces: no hit") {
         CHECK_FALSE(closest_hit_in_octree(Node{}, {{0.0F, 0.0F, 0.0F}, k_down}).has_value());
     }
@@ -295,6 +302,9 @@ TEST_CASE("occluded_in_octree: a lamp in a room, with small things in it", "[06-
     const Node small = columns_around(one.surfaces());
     CHECK_FALSE(occluded_in_octree(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.0F));
     CHECK(occluded_in_octree(small, {{0.0F, 0.0F, 5.0F}, k_down}, 4.5F));
+    INFO("the same in a tree that is a single leaf");
+    const Node leaf{{{-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F}}, one.surfaces(), {}};
+    CHECK(occluded_in_octree(leaf, {{0.0F, 0.0F, 5.0F}, k_down}, 4.5F));
     CHECK_FALSE(occluded_in_octree(Node{}, {{0.0F, 0.0F, 0.0F}, k_down}, 1000.0F));
 }
 

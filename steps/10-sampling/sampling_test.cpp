@@ -184,11 +184,15 @@ TEST_CASE("mitchell_filter: weights a distance of 1 apart add up to 1", "[10-sam
 }
 
 TEST_CASE("reconstruct: the box gives the mean of what lies in the pixel", "[10-sampling][reconstruct]") {
-    const std::array<PixelSample, 3> samples{PixelSample{{0.1F, 0.2F}, {1.0F, 0.0F, 0.0F}},
-                                             PixelSample{{-0.4F, 0.3F}, {0.0F, 1.0F, 0.0F}},
-                                             PixelSample{{0.7F, 0.0F}, {0.0F, 0.0F, 1.0F}}};
-    INFO("the third lies outside of the pixel: it counts nothing");
+    const std::array<PixelSample, 3> samples{PixelSample{{0.7F, 0.0F}, {0.0F, 0.0F, 1.0F}},
+                                             PixelSample{{0.1F, 0.2F}, {1.0F, 0.0F, 0.0F}},
+                                             PixelSample{{-0.4F, 0.3F}, {0.0F, 1.0F, 0.0F}}};
+    INFO("the first lies outside of the pixel: it counts nothing");
     CHECK_THAT(reconstruct(samples, Filter::box), IsNear({0.5F, 0.5F, 0.0F}));
+    INFO("one of two samples is black, and counts as much as the other");
+    const std::array<PixelSample, 2> dark{PixelSample{{0.1F, 0.2F}, {1.0F, 0.5F, 2.0F}},
+                                          PixelSample{{-0.4F, 0.3F}, {0.0F, 0.0F, 0.0F}}};
+    CHECK_THAT(reconstruct(dark, Filter::box), IsNear({0.5F, 0.25F, 1.0F}));
 }
 
 TEST_CASE("reconstruct: weights of x times weights of y, divided by their sum", "[10-sampling][reconstruct]") {

@@ -401,8 +401,9 @@ TEST_CASE("sampled_light: radiance times kd colour / pi times cos over pdf", "[1
     const LightSample sample{{4.0F, 6.0F, 3.0F}, {0.0F, -1.0F, 0.0F}, 2.0F};
     const float share = 0.8F / k_pi * 0.8F / 2.0F;
     CHECK_THAT(sampled_light(hit, {10.0F, 20.0F, 30.0F}, sample), IsNear({5.0F * share, 5.0F * share, 30.0F * share}));
-    INFO("no highlight: mirrors show the lamp itself");
+    INFO("no highlight: mirrors show the lamp itself; and the same where the surface is seen from behind");
     hit.fill.ks = 0.9F;
+    hit.front_face = false;
     CHECK_THAT(sampled_light(hit, {10.0F, 20.0F, 30.0F}, sample), IsNear({5.0F * share, 5.0F * share, 30.0F * share}));
 }
 

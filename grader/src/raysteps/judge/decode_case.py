@@ -104,7 +104,7 @@ def _hit(n: _Numbers) -> Hit:
 
 
 def _camera(n: _Numbers) -> Camera:
-    return Camera(n.vector(), n.vector(), n.vector(), n.real(), n.whole(), n.whole())
+    return Camera(n.vector(), n.vector(), n.vector(), n.real(), n.whole(), n.whole(), n.vector())
 
 
 def _frame(n: _Numbers) -> Frame:

@@ -152,14 +152,17 @@ class Camera:
     angle: float
     width: int
     height: int
+    lens: Vector = (0.0, 0.0, 1.0)  # hither, lens_radius and focal_distance: none of them matters to step 01
 
     def numbers(self) -> list[Number]:
-        return [*self.origin, *self.at, *self.up, self.angle, self.width, self.height]
+        return [*self.origin, *self.at, *self.up, self.angle, self.width, self.height, *self.lens]
 
     def words(self) -> str:
+        hither, radius, focus = self.lens
+        lens = f" hither {text(hither)} lens_radius {text(radius)} focal_distance {text(focus)}" if hither else ""
         return (
             f"from {vector_words(self.origin)} at {vector_words(self.at)} up {vector_words(self.up)} "
-            f"angle {text(self.angle)} resolution {self.width} {self.height}"
+            f"angle {text(self.angle)} resolution {self.width} {self.height}{lens}"
         )
 
 

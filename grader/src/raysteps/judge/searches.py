@@ -22,7 +22,8 @@ class WhoseTree:
         return [int(self.own)]
 
     def words(self) -> str:
-        return "made by build_octree" if self.own else "three levels of boxes, each with the surfaces that touch it"
+        given = "three levels of boxes, or one for two surfaces, each with those that touch it"
+        return "made by build_octree" if self.own else given
 
 
 @dataclass(frozen=True)

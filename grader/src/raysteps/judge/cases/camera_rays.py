@@ -86,6 +86,12 @@ def _extreme_camera(draw: RandomSource) -> Camera:
     return replace(camera, origin=origin, at=rounded(add(origin, view, distance)), up=rounded(times(size, up)))
 
 
+def with_lens(draw: RandomSource) -> Camera:
+    """Its window is at distance 1 all the same, and not where it is sharp or begins to see."""
+    lens = f32(draw.real(0.1, 0.9)), f32(draw.real(0.05, 0.5)), f32(draw.real(2, 9))
+    return replace(any_camera(draw), lens=lens)
+
+
 def _frame_problems(expected: Frame, actual: Frame) -> tuple[str, ...]:
     return (
         direction("forward", expected.forward, actual.forward),
@@ -116,6 +122,7 @@ VIEW_FRAME = Function(
         Group("wide and tall pictures", lambda d: {"camera": long_camera(d)}),
         Group("narrow and wide angles", lambda d: {"camera": _angled_camera(d)}),
         Group("very short and very long vectors", lambda d: {"camera": _extreme_camera(d)}),
+        Group("a lens and a near plane", lambda d: {"camera": with_lens(d)}),
     ),
 )
 
@@ -184,6 +191,7 @@ PRIMARY_RAY = Function(
         Group("wide and tall pictures", lambda d: _any_pixel(d, long_camera(d))),
         Group("the middle pixel", _middle),
         Group("one pixel wide or high", _one_pixel_wide),
+        Group("a lens and a near plane", lambda d: _any_pixel(d, with_lens(d))),
     ),
 )
 

@@ -36,6 +36,10 @@ def _beside(draw: RandomSource, t: Triangle) -> Vector:
     return t.at(*corners[draw.whole(0, 2)])
 
 
+def _inside_or_beside(draw: RandomSource, t: Triangle) -> Vector:
+    return _inside(draw, t) if draw.chance(0.7) else _beside(draw, t)
+
+
 def _towards(draw: RandomSource, t: Triangle, point: Vector, side: float, distance: float) -> Ray:
     """Comes from the triangle's front (side 1) or back (side -1)."""
     direction = times(-1.0, draw.above(times(side, _normal_of(t)), _STEEP))
@@ -109,8 +113,7 @@ def _at_edge(draw: RandomSource, t: Triangle) -> Vector:
 
 def _any_triangle(draw: RandomSource) -> Inputs:
     t = draw.triangle()
-    point = _inside(draw, t) if draw.chance(0.7) else _beside(draw, t)
-    return _triangle_case(t, _towards(draw, t, point, draw.sign(), draw.real(1, 10)), draw)
+    return _triangle_case(t, _towards(draw, t, _inside_or_beside(draw, t), draw.sign(), draw.real(1, 10)), draw)
 
 
 def _from_side(draw: RandomSource, side: float) -> Inputs:
@@ -129,9 +132,10 @@ def _triangle_behind(draw: RandomSource) -> Inputs:
 
 
 def _small_triangle(draw: RandomSource) -> Inputs:
-    """Its area is tiny, and nothing else about it is: who compares it with a small number loses it."""
+    """Its area is tiny, and nothing else about it is: who compares it with a small number loses it, or hits what is
+    beside it."""
     t = _of_size(draw, draw.logarithmic(_SIZES[0], 10 * _SIZES[0]), draw.point(1))
-    return _triangle_case(t, _towards(draw, t, _inside(draw, t), draw.sign(), draw.real(0.5, 1)), draw)
+    return _triangle_case(t, _towards(draw, t, _inside_or_beside(draw, t), draw.sign(), draw.real(0.5, 1)), draw)
 
 
 def _of_size(draw: RandomSource, size: float, place: Vector) -> Triangle:
@@ -176,12 +180,13 @@ def _close_to_triangle(draw: RandomSource) -> Inputs:
 
 
 def _triangle_of_any_size(draw: RandomSource) -> Inputs:
-    """The distance goes with the size, and up to 10 000."""
-    size = draw.logarithmic(10 * _SIZES[0], _SIZES[1])
+    """The distance goes with the size, and up to 10 000: so it is for some of them whatever is drawn."""
+    size = draw.logarithmic(0.3 * _SIZES[1] if draw.chance(0.2) else 10 * _SIZES[0], _SIZES[1])
     t = _of_size(draw, size, draw.point(min(size, 1.0)))
     direction = times(-1.0, draw.above(times(draw.sign(), _normal_of(t)), 0.5))
-    distance = size * draw.logarithmic(0.1, 10)
-    return _triangle_case(t, Ray(rounded(add(_inside(draw, t), direction, -distance)), rounded(direction)), draw)
+    distance = size * draw.logarithmic(3 if size > 0.3 * _SIZES[1] else 0.1, 10)
+    target = _inside_or_beside(draw, t)
+    return _triangle_case(t, Ray(rounded(add(target, direction, -distance)), rounded(direction)), draw)
 
 
 TRIANGLE_INTERSECT = Function(

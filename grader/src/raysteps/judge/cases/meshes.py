@@ -190,6 +190,14 @@ def _turned_away(draw: RandomSource) -> Inputs:
     return draw.until(is_turned, make)
 
 
+def _seen_from_the_side(draw: RandomSource) -> Inputs:
+    """The blend is nearly at right angles to the ray, and not turned away."""
+    face, weights = _face(draw), _weights(draw)
+    blend, flat = unit(_blend(face, weights)), _flat_normal(Triangle(face.a.position, face.b.position, face.c.position))
+    seen = draw.until(lambda up: dot(up, flat) > 0.02, lambda: draw.above(blend, 0.02, 0.12))
+    return _shading(face, weights, rounded(times(-1, seen)))
+
+
 def _short_blend(draw: RandomSource) -> Inputs:
     """Normals far apart: their blend is much shorter than 1."""
     face, normal = _simple_face(), (0.0, 0.0, 1.0)
@@ -223,6 +231,7 @@ _NORMAL = Function(
         Group("a corner", _normal_of_corner),
         Group("turned away from the viewer", _turned_away),
         Group("a short blend", _short_blend),
+        Group("seen from the side", _seen_from_the_side),
         Group("nothing left", _nothing_left, exact=True),
     ),
 )
@@ -314,8 +323,8 @@ _WRAP = Function(
     Answer(read_whole, words_of_number, lambda _, e, a: "" if e == a else "it is another texel"),
     (
         Group("inside and around", lambda d: _wrap(d, -1, 2), exact=True),
-        Group("repeat, to the right", lambda d: _wrap(d, 1, 4, _REPEAT), exact=True),
-        Group("repeat, to the left", lambda d: _wrap(d, -4, 0, _REPEAT), exact=True),
+        Group("repeat, to the right", lambda d: _wrap(d, 1, 9, _REPEAT), exact=True),
+        Group("repeat, to the left", lambda d: _wrap(d, -9, 0, _REPEAT), exact=True),
         Group("clamp", lambda d: _wrap(d, -3, 4, _CLAMP), exact=True),
         Group("at the border", _at_border, exact=True),
         Group("one texel", _one_texel, exact=True),
@@ -424,6 +433,11 @@ def _odd(draw: RandomSource) -> Inputs:
     return _pyramid_of(draw, 2 * draw.whole(1, 4) + 1, 2 * draw.whole(1, 4) + 1)
 
 
+def _of_many_levels(draw: RandomSource) -> Inputs:
+    long = draw.whole(65, 300)
+    return _pyramid_of(draw, *((long, 1) if draw.chance(0.5) else (1, long)))
+
+
 _BUILD = Function(
     "build_pyramid",
     Answer(_read_levels, _words_of_levels, _levels_problem, credit=_levels_right),
@@ -433,6 +447,7 @@ _BUILD = Function(
         Group("odd sizes", _odd),
         Group("long and thin", lambda d: _pyramid_of(d, d.whole(5, 16), d.whole(1, 2))),
         Group("one texel", lambda d: _pyramid_of(d, 1, 1)),
+        Group("many levels", _of_many_levels),
     ),
 )
 

@@ -12,6 +12,7 @@ from raysteps.judge.cases.tree_cases import (
     RaysInScene,
     Scene,
     along_axis,
+    among_few,
     among_many,
     between,
     closest,
@@ -121,6 +122,7 @@ CLOSEST_HIT_IN_OCTREE = Function(
         Group("one ball behind another", _closest(_balls_in_a_row)),
         Group("large ones among small ones", _closest(over_a_ground, own=1)),
         Group("few surfaces are asked", _closest(among_many, own=1), saves=True),
+        Group("a single box", _closest(among_few, own=0)),
         Group("no surfaces", _closest(no_surfaces, own=1)),
     ),
 )
@@ -192,6 +194,7 @@ OCCLUDED_IN_OCTREE = Function(
         Group("large ones among small ones", _occluded(over_a_ground, between(2, 9), own=1)),
         Group("crowded boxes", _occluded(_in_crowded_boxes, between(7, 17), own=0)),
         Group("few surfaces are asked", _occluded(among_many, between(13, 15), own=1)),
+        Group("a single box", _occluded(among_few, AROUND_THE_FIRST, own=0)),
         Group("no surfaces", _occluded(no_surfaces, fixed(9.0), own=1)),
     ),
     yes_or_no=True,

@@ -203,6 +203,7 @@ _STRATIFIED = Function(
         Group("one square", lambda d: _draws(d, 1, 2048)),
         Group("many squares", lambda d: _draws(d, d.whole(5, 16), 4096)),
         Group("very many points", lambda d: _draws(d, d.whole(4, 8), 65_536)),
+        Group("as many as a picture may ask for", lambda d: _draws(d, d.whole(17, 64), 8192)),
     ),
 )
 
@@ -342,6 +343,25 @@ def _one_is_bright(draw: RandomSource) -> Inputs:
     return {**inputs, "samples": PixelSamples((*samples.samples, bright))}
 
 
+def _black_ones(draw: RandomSource) -> Inputs:
+    """Most of what a pixel sees is black: that counts, too."""
+    inputs = _samples(draw, _EVERY, draw.whole(4, 9))
+    samples = inputs["samples"]
+    assert isinstance(samples, PixelSamples)
+    first, *others = samples.samples
+    black = [PixelSample(one.offset, (0.0, 0.0, 0.0)) for one in others]
+    return {**inputs, "samples": PixelSamples((first, *black) if draw.chance(0.5) else (*black, first))}
+
+
+def _first_ones_do_not_count(draw: RandomSource) -> Inputs:
+    """They lie beyond the filter's reach: the weights add up to 0 for a while."""
+    inputs = _samples(draw, (_BOX, _TENT_KIND), draw.whole(2, 6))
+    samples = inputs["samples"]
+    assert isinstance(samples, PixelSamples)
+    out = [PixelSample((draw.sign() * draw.eighths(1.125, 3), draw.real(-1, 1)), draw.color()) for _ in range(2)]
+    return {**inputs, "samples": PixelSamples((*out, *samples.samples))}
+
+
 def _of_no_weight(draw: RandomSource) -> Inputs:
     """No sample at all, or only such as lie beyond the filter's reach, where nobody's formula is off by rounding."""
     kind = _EVERY[draw.whole(0, 1)]
@@ -384,6 +404,8 @@ _RECONSTRUCT = Function(
         Group("the answer is below 0", _negative_light),
         Group("the weights' sum is below 0", _below_zero),
         Group("nothing counts", _of_no_weight, exact=True),
+        Group("some are black", _black_ones),
+        Group("the first ones do not count", _first_ones_do_not_count),
     ),
 )
 

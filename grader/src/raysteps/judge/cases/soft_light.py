@@ -584,9 +584,10 @@ _COLOR = Answer(
 
 
 def _brought(draw: RandomSource, low: float, high: float, *, pdf: float | None = None) -> Inputs:
-    """By a lamp with that cosine at the hit."""
+    """By a lamp with that cosine at the hit, which is on either side of its surface."""
     position, normal = draw.point(4), draw.direction()
-    hit = Hit(position, normal, times(-1.0, draw.above(normal, 0.2, 0.95)), draw.real(1, 9), draw.fill())
+    seen_along, distance = times(-1.0, draw.above(normal, 0.2, 0.95)), draw.real(1, 9)
+    hit = Hit(position, normal, seen_along, distance, draw.fill(), draw.chance(0.6))
     way = draw.above(normal, low, high)
     place = rounded(add(position, way, draw.real(0.5, 8)))
     return {
@@ -628,6 +629,7 @@ _SAMPLED_LIGHT = Function(
         Group("simple numbers", _simple_brought),
         Group("at a slant", lambda d: _brought(d, 0.02, 0.15)),
         Group("a dark mirror", _dark_wall),
+        Group("a low density", lambda d: _brought(d, 0.2, 0.99, pdf=d.logarithmic(1e-3, 0.05))),
         Group("below the surface", lambda d: _brought(d, -0.99, -0.05)),
         Group("no density", lambda d: _brought(d, 0.2, 0.99, pdf=0.0), exact=True),
     ),

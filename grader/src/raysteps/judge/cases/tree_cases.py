@@ -170,6 +170,12 @@ def among_many(draw: RandomSource) -> RaysInScene:
     return many_rays(draw, small_scene(draw, 200, 0, largest=0.3))
 
 
+def among_few(draw: RandomSource) -> RaysInScene:
+    """So few that they are all in one box, and there is no other."""
+    surfaces = small_scene(draw, 1, 1)
+    return surfaces, (aimed(draw, surfaces, 15),)
+
+
 def no_surfaces(draw: RandomSource) -> RaysInScene:
     return (), (draw.ray_towards((0.0, 0.0, 0.0), 5),)
 
