@@ -36,8 +36,6 @@ TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree][Sphere::overlaps
     SECTION("a box far away: no, or the tree would save no tests") {
         CHECK_FALSE(Sphere({9.0F, 0.0F, 0.0F}, 1.0F, Fill{}).overlaps(k_cube));
         CHECK_FALSE(Sphere({0.0F, 0.0F, -9.0F}, 1.0F, Fill{}).overlaps(k_cube));
-        INFO("and one that is closely beside the sphere's bounds, which begin at 1.2");
-        CHECK_FALSE(Sphere({2.2F, 0.0F, 0.0F}, 1.0F, Fill{}).overlaps(k_cube));
     }
 }
 
@@ -70,7 +68,5 @@ TEST_CASE("Triangle::overlaps: never a no too many", "[06-octree][Triangle::over
     SECTION("a box far away: no, or the tree would save no tests") {
         CHECK_FALSE(Triangle({8.0F, 0.0F, 0.0F}, {9.0F, 0.0F, 0.0F}, {8.0F, 1.0F, 1.0F}, Fill{}).overlaps(k_cube));
         CHECK_FALSE(Triangle({0.0F, 8.0F, 0.0F}, {0.0F, 9.0F, 0.0F}, {1.0F, 8.0F, 1.0F}, Fill{}).overlaps(k_cube));
-        INFO("and one that is closely beside the triangle's bounds, which begin at 1.2");
-        CHECK_FALSE(Triangle({1.2F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}, {1.2F, 1.0F, 1.0F}, Fill{}).overlaps(k_cube));
     }
 }

@@ -36,19 +36,6 @@ def beyond(draw: RandomSource, middle: Vector, reach: float) -> Box:
     return Box(rounded(add(away, size, -0.5)), rounded(add(away, size, 0.5)))
 
 
-def closely_beside(draw: RandomSource, bounds: Box) -> Box:
-    """A large box that does not touch the bounds, along one axis only and by little. A ball around either of the two
-    reaches the other."""
-    axis, sign, gap = draw.whole(0, 2), draw.sign(), draw.real(0.05, 0.2)
-    low, high = [], []
-    for i, (least, most) in enumerate(zip(bounds.low, bounds.high, strict=True)):
-        size, start = draw.real(1, 3), least + (most - least) * draw.real(0.2, 0.8)
-        below = start - size / 2 if i != axis else most + gap if sign > 0 else least - gap - size
-        low.append(below)
-        high.append(below + size)
-    return Box(rounded((low[0], low[1], low[2])), rounded((high[0], high[1], high[2])))
-
-
 def flattened(draw: RandomSource, box: Box, point: Vector) -> Box:
     """Without thickness along one axis, where it still holds the point."""
     axis = draw.whole(0, 2)
@@ -70,12 +57,6 @@ def _sphere_on(draw: RandomSource, radius: tuple[float, float], size: tuple[floa
 def _sphere_far(draw: RandomSource) -> Inputs:
     sphere = Sphere(draw.point(3), draw.real(0.2, 2))
     return {"sphere": sphere, "box": beyond(draw, sphere.center, sphere.radius)}
-
-
-def _sphere_beside(draw: RandomSource) -> Inputs:
-    sphere = Sphere(draw.point(3), draw.real(0.2, 2))
-    low, high = (add(sphere.center, (1.0, 1.0, 1.0), side * sphere.radius) for side in (-1, 1))
-    return {"sphere": sphere, "box": closely_beside(draw, Box(low, high))}
 
 
 def _sphere_within(draw: RandomSource) -> Inputs:
@@ -118,7 +99,6 @@ SPHERE_OVERLAPS = Function(
         Group("just touching", _just_touching),
         Group("flat boxes", _sphere_flat, exact=True),
         Group("far apart", _sphere_far),
-        Group("closely beside its bounds", _sphere_beside),
     ),
     yes_or_no=True,
 )
@@ -142,13 +122,6 @@ def _triangle_far(draw: RandomSource) -> Inputs:
     t = draw.triangle(2.0)
     middle = times(1 / 3, add(add(t.a, t.b), t.c))
     return {"triangle": t, "box": beyond(draw, middle, 4.0)}
-
-
-def _triangle_beside(draw: RandomSource) -> Inputs:
-    t = draw.triangle(2.0)
-    low, high = (tuple(map(best, t.a, t.b, t.c)) for best in (min, max))
-    bounds = Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))
-    return {"triangle": t, "box": closely_beside(draw, bounds)}
 
 
 def _triangle_mixed(draw: RandomSource) -> Inputs:
@@ -219,7 +192,6 @@ TRIANGLE_OVERLAPS = Function(
         Group("flat boxes", _triangle_flat, exact=True),
         Group("in the plane of a face", _in_face, exact=True),
         Group("far apart", _triangle_far),
-        Group("closely beside its bounds", _triangle_beside),
     ),
     yes_or_no=True,
 )
