@@ -73,7 +73,7 @@ void Fiber::stop() {
     change(state_->inside, *state_->outside);
 }
 
-void Fiber::stop_for(Fiber& next) {
+void Fiber::switch_to(Fiber& next) {
     next.state_->outside = state_->outside;
     t_resumed = &next;
     exchange_with_thread(state_->exceptions);

@@ -22,7 +22,7 @@ public:
     /// Called in the body: goes back to whoever resumed it.
     void stop();
     /// Called in the body: `next`, which is stopped, goes on in its place, as if it had been resumed instead.
-    void stop_for(Fiber& next);
+    void switch_to(Fiber& next);
     [[nodiscard]] bool ended() const { return ended_; }
 
 private:

@@ -124,7 +124,7 @@ TEST_CASE("fibers that stop for each other go on where they stopped, each in its
                 try {
                     throw std::runtime_error(std::to_string(number));
                 } catch (const std::runtime_error& error) {
-                    fibers[number]->stop_for(next);
+                    fibers[number]->switch_to(next);
                     caught[number] += error.what();
                 }
             }
@@ -142,7 +142,7 @@ TEST_CASE("fibers that stop for each other go on where they stopped, each in its
 
 TEST_CASE("who resumes a fiber gets what nobody has handled in it, or in one that it stopped for" WAY, "[remote]") {
     Fiber failing([] { throw std::length_error("unhandled"); });
-    Fiber first([&] { first.stop_for(failing); });
+    Fiber first([&] { first.switch_to(failing); });
     REQUIRE_THROWS_AS(first.resume(), std::length_error);
     REQUIRE(failing.ended());
     REQUIRE_FALSE(first.ended());

@@ -43,13 +43,13 @@ bool offer(FunctionId id, Session::Service service) {
 
 bool stand_in(FunctionId id) { return stand_ins().at(static_cast<std::size_t>(id)) = true; }
 
-bool calls_only(FunctionId id, std::initializer_list<FunctionId> called) {
-    calls().at(static_cast<std::size_t>(id)) = called;
+bool calls_only(FunctionId id, std::initializer_list<FunctionId> steps) {
+    calls().at(static_cast<std::size_t>(id)) = steps;
     return true;
 }
 
 Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell)
-    : end_(end), wire_(end, pipes, answer, farewell, end == End::home ? answers_alone : nullptr) {
+    : end_(end), wire_(end, pipes, answer, farewell, end == End::home ? answers_without_asking : nullptr) {
     g_session = this;
 }
 
@@ -105,8 +105,8 @@ void Session::keep_exception() {
     }
 }
 
-/// Nothing that it calls is asked here. That is known when main has begun, and before a box asks anything.
-bool Session::answers_alone(std::string_view question) {
+/// No stand-in is here for what it may call. All of them have said so when the first question comes.
+bool Session::answers_without_asking(std::string_view question) {
     static const OfEach<bool> alone = [] {
         OfEach<bool> of_each{};
         std::transform(calls().begin(), calls().end(), of_each.begin(),

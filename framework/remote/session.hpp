@@ -43,7 +43,8 @@ public:
         return wait_for_answer();
     }
 
-    /// Whether a function of the other end stands in for this one here, or is here for the other end to ask.
+    /// Whether stand-ins for the step that this function is named for are here, or the function for the other end to
+    /// ask.
     [[nodiscard]] static bool asks(FunctionId id);
     [[nodiscard]] static bool offers(FunctionId id);
 
@@ -52,7 +53,7 @@ public:
 private:
     [[nodiscard]] Message wait_for_answer();
     static void answer(Wire& wire, std::string_view question);
-    static bool answers_alone(std::string_view question);
+    static bool answers_without_asking(std::string_view question);
     void keep_exception();
 
     End end_;
@@ -64,25 +65,25 @@ private:
 /// Whether this process keeps to that processor from now on.
 bool run_on_processor(int processor);
 
-/// Called before main begins, by whoever has the function, or a stand-in for it. Always true.
+/// Called before main begins, by whoever has the function, or a stand-in for it. Always true. Stand-ins come by steps:
+/// one function is named for all of the step's.
 bool offer(FunctionId id, Session::Service service);
 bool stand_in(FunctionId id);
 
-/// What tests of surfaces call of the steps' functions, and what searches of a scene do.
+/// Of each step with a function that tests of surfaces, or searches of a scene, may call: the one that stands for it.
 inline constexpr std::initializer_list<FunctionId> k_called_by_surfaces = {
-    FunctionId::point_at, FunctionId::triangle_intersect, FunctionId::sphere_intersect};
-inline constexpr std::initializer_list<FunctionId> k_called_by_searches = {FunctionId::point_at,
-                                                                           FunctionId::triangle_intersect,
-                                                                           FunctionId::sphere_intersect,
-                                                                           FunctionId::closest_hit,
-                                                                           FunctionId::any_hit,
-                                                                           FunctionId::box_clip,
-                                                                           FunctionId::closest_hit_in_octree,
-                                                                           FunctionId::occluded_in_octree,
-                                                                           FunctionId::closest_hit_in_bvh,
-                                                                           FunctionId::occluded_in_bvh};
+    FunctionId::point_at,          // 01
+    FunctionId::sphere_intersect,  // 02
+};
+inline constexpr std::initializer_list<FunctionId> k_called_by_searches = {
+    FunctionId::point_at,          // 01
+    FunctionId::sphere_intersect,  // 02
+    FunctionId::box_clip,          // 06
+    FunctionId::surface_area,      // 09
+    FunctionId::barycentric,       // 11: what is met is a mesh's
+};
 
-/// That the offered function calls none of the steps' functions but these. Always true.
-bool calls_only(FunctionId id, std::initializer_list<FunctionId> called);
+/// That the offered function calls none of the steps' functions but those of these steps. Always true.
+bool calls_only(FunctionId id, std::initializer_list<FunctionId> steps);
 
 }  // namespace raysteps::remote

@@ -32,12 +32,12 @@ void Wire::end(int code, const char* why) {
     std::_Exit(code);
 }
 
-Wire::Wire(End end, Pipes pipes, Service service, Farewell farewell, AnswersAlone answers_alone)
+Wire::Wire(End end, Pipes pipes, Service service, Farewell farewell, AnswersWithoutAsking answers_without_asking)
     : end_(end),
       pipes_(pipes),
       service_(service),
       farewell_(farewell),
-      answers_alone_(answers_alone),
+      answers_without_asking_(answers_without_asking),
       outgoing_(sizeof(BatchSize), '\0'),
       incoming_(k_usual_batch) {
     t_has_fibers = true;
@@ -82,8 +82,8 @@ void Wire::end_message(std::size_t start) {
 }
 
 Message Wire::receive() {
-    if (answers_alone_now_) {
-        end(k_broken, "a function that answers alone has asked");
+    if (must_not_ask_) {
+        end(k_fault, "a function that answers without asking has asked");
     }
     while (true) {
         {
@@ -99,12 +99,12 @@ Message Wire::receive() {
                 return message;
             }
             talk.waiting = true;
-            if (talk.visitor || (ready_.empty() && !is_thread_needed())) {
+            if (talk.visitor || (ready_.empty() && !must_return_to_thread())) {
                 exchange();
                 continue;
             }
         }
-        go_on();
+        resume_next();
     }
 }
 
@@ -164,14 +164,14 @@ void Wire::run_together(int most, const std::function<void()>& work) {
         }
         starts_ = true;
         ready_.push_back(++started);
-        go_on();
+        resume_next();
     }
     starts_ = false;
     while (ended < started) {
         if (ready_.empty()) {
             exchange();
         } else {
-            go_on();
+            resume_next();
         }
     }
     for (std::size_t number = 1; number <= started; ++number) {
@@ -185,11 +185,11 @@ void Wire::run_together(int most, const std::function<void()>& work) {
 
 /// Lets the next of those that something came for go on: in place of the fiber that calls this, until something comes
 /// for that, or until nothing is left to do without the thread that fibers run on.
-void Wire::go_on() {
+void Wire::resume_next() {
     Fiber* const self = conversation(running_).fiber.get();
     const std::size_t number = next_ready();
     if (number == 0) {
-        become(0);
+        switch_conversation(0);
         self->stop();
         return;
     }
@@ -204,30 +204,30 @@ void Wire::go_on() {
     if (next.fiber.get() == self) {
         return;
     }
-    become(number);
+    switch_conversation(number);
     if (self != nullptr) {
-        self->stop_for(*next.fiber);
+        self->switch_to(*next.fiber);
     } else {
         next.fiber->resume();
-        become(0);
+        switch_conversation(0);
     }
 }
 
 /// A fiber that waits for an answer, and is asked meanwhile what needs none of its own, sleeps on: to wake it and to
 /// let it sleep again would take longer than most answers.
 bool Wire::may_answer_for(const Conversation& talk) const {
-    return answers_alone_ != nullptr && !talk.serves && talk.received && talk.received->kind == Kind::question &&
-           answers_alone_(talk.received->bytes);
+    return answers_without_asking_ != nullptr && !talk.serves && talk.received &&
+           talk.received->kind == Kind::question && answers_without_asking_(talk.received->bytes);
 }
 
 void Wire::answer_for(Conversation& talk, std::size_t number) {
     const Message question = *std::exchange(talk.received, std::nullopt);
     const std::size_t before = running_;
-    become(number);
-    answers_alone_now_ = true;
+    switch_conversation(number);
+    must_not_ask_ = true;
     service_(*this, question.bytes);
-    answers_alone_now_ = false;
-    become(before);
+    must_not_ask_ = false;
+    switch_conversation(before);
 }
 
 /// In the order of sending: what comes first may explain the next. 0 for the thread itself.
@@ -243,12 +243,12 @@ std::size_t Wire::next_ready() {
 }
 
 /// Whether the thread that fibers run on waits for this one to stop: it has more of them to start, or was asked itself.
-bool Wire::is_thread_needed() const {
+bool Wire::must_return_to_thread() const {
     return running_ != 0 && (starts_ || (conversations_[0] != nullptr && conversations_[0]->received));
 }
 
 /// What the thread has for itself is of this conversation from now on.
-void Wire::become(std::size_t number) {
+void Wire::switch_conversation(std::size_t number) {
     Conversation& before = conversation(running_);
     exchange_thread_with(before);
     if (end_ == End::home && before.serves) {  // whoever goes on next is charged with it

@@ -67,7 +67,7 @@ public:
     /// Writes the answer to a question of the other end, in the conversation in which it was asked.
     using Service = void (*)(Wire& wire, std::string_view question);
     /// Whether the service answers it without a question of its own.
-    using AnswersAlone = bool (*)(std::string_view question);
+    using AnswersWithoutAsking = bool (*)(std::string_view question);
 
     /// Ends the program with its exit code, since there is nobody left to talk to: the other end is gone, sent what no
     /// stand-in sends, asks back without end, or has more to say at once than a batch holds.
@@ -75,11 +75,13 @@ public:
     static constexpr int k_broken = 71;
     static constexpr int k_endless = 72;
     static constexpr int k_too_long = 73;
+    static constexpr int k_fault = 74;  ///< of the kit, and not of the other end
     using Farewell = void (*)(int code, const char* why);
 
     static constexpr std::size_t k_max_conversations = 1024;
 
-    Wire(End end, Pipes pipes, Service service, Farewell farewell, AnswersAlone answers_alone = nullptr);
+    Wire(End end, Pipes pipes, Service service, Farewell farewell,
+         AnswersWithoutAsking answers_without_asking = nullptr);
 
     /// A message of the current conversation: write(bytes) appends what it says. It is sent with all others when
     /// somebody waits.
@@ -131,7 +133,7 @@ private:
         int depth = 0;                    ///< questions that are being answered
         bool visitor = false;             ///< of a thread that a student has started
         bool waiting = false;             ///< for a message
-        bool ready = false;               ///< to go on when it is its turn
+        bool ready = false;               ///< in `ready_`: takes what it received when its turn comes, not before
         bool serves = false;              ///< the other end began it
     };
 
@@ -151,11 +153,11 @@ private:
     [[nodiscard]] bool may_begin(std::size_t number) const;
     void answer_for(Conversation& talk, std::size_t number);
     [[nodiscard]] bool may_answer_for(const Conversation& talk) const;
-    [[nodiscard]] bool is_thread_needed() const;
+    [[nodiscard]] bool must_return_to_thread() const;
     [[nodiscard]] std::size_t next_ready();
-    void become(std::size_t number);
+    void switch_conversation(std::size_t number);
     void exchange_thread_with(Conversation& talk);
-    void go_on();
+    void resume_next();
     Conversation& conversation(std::size_t number);
     void write_all(std::string_view bytes);
 
@@ -163,8 +165,8 @@ private:
     Pipes pipes_;
     Service service_;
     Farewell farewell_;
-    AnswersAlone answers_alone_;
-    bool answers_alone_now_ = false;
+    AnswersWithoutAsking answers_without_asking_;
+    bool must_not_ask_ = false;
     std::recursive_mutex mutex_;
     std::array<std::unique_ptr<Conversation>, k_max_conversations> conversations_;
     std::deque<std::size_t> ready_;  ///< conversations on fibers that something came for, in that order

@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::point_at);
+
 glm::vec3 point_at(const Ray& ray, float distance) { return ask<&point_at>(FunctionId::point_at, ray, distance); }
 
 ViewFrame view_frame(const Camera& camera) { return ask<&view_frame>(FunctionId::view_frame, camera); }

@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::mirror);
+
 glm::vec3 mirror(const glm::vec3& direction, const glm::vec3& normal) {
     return ask<&mirror>(FunctionId::mirror, direction, normal);
 }

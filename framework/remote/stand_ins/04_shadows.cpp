@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::shadow_ray);
+
 Ray shadow_ray(const HitRecord& hit, const Light& light) {
     return ask<&shadow_ray>(FunctionId::shadow_ray, hit, light);
 }

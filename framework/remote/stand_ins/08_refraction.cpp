@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::refract);
+
 std::optional<glm::vec3> refract(const glm::vec3& direction, const glm::vec3& normal, float eta) {
     return ask<&refract>(FunctionId::refract, direction, normal, eta);
 }

@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::stratified_samples);
+
 std::vector<glm::vec2> stratified_samples(int side, RandomStream& random) {
     return ask<&stratified_samples>(FunctionId::stratified_samples, side, random);
 }

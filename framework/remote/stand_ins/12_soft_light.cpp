@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::turned_to);
+
 glm::vec3 turned_to(const glm::vec3& normal, const glm::vec3& vector) {
     return ask<&turned_to>(FunctionId::turned_to, normal, vector);
 }

@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::cosine_direction);
+
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& u) {
     return ask<&cosine_direction>(FunctionId::cosine_direction, normal, u);
 }

@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::fresnel_dielectric);
+
 float fresnel_dielectric(float cosine, float eta) {
     return ask<&fresnel_dielectric>(FunctionId::fresnel_dielectric, cosine, eta);
 }

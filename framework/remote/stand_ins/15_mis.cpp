@@ -6,6 +6,8 @@ namespace raysteps {
 using remote::ask;
 using remote::FunctionId;
 
+[[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::balance_heuristic);
+
 float balance_heuristic(float pdf, float other_pdf) {
     return ask<&balance_heuristic>(FunctionId::balance_heuristic, pdf, other_pdf);
 }

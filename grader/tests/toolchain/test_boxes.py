@@ -7,6 +7,7 @@ from machine_code import reference_code
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.course.stubs import without_markers
 from raysteps.images.render import Rendered, reference_picture, reference_work, render
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Task
@@ -76,6 +77,29 @@ def test_the_same_picture_and_the_same_counts(
         assert rendered.pixels is not None, rendered.ran.outcome.stderr
         assert (rendered.pixels == reference_picture(kit, scene, args)).all(), step.id
         assert rendered.work == reference_work(kit, scene, args), step.id
+
+
+@pytest.mark.parametrize("own", ["01 03 04 05 06 07 08 09", "10 11 12 13", "10 11 12 13 14 15"])
+def test_steps_of_a_student_beside_others_of_the_reference(
+    whole_kit: BuiltKit, project: Project, tmp_path: Path, own: str
+) -> None:
+    """What these others call may be a student's, too: a scene that is asked what a ray meets asks the box."""
+    steps = [step for step in whole_kit.steps if step.number in own.split()]
+    build = StudentBuild(whole_kit, LimitsOnly(), tmp_path)
+    sources = {step.number: without_markers((project.solutions / step.path).read_text("utf-8")) for step in steps}
+    binaries = {step.number: _compiled(build, step, sources[step.number]) for step in steps}
+    program, ran = build.program("raytrace", steps[-1], binaries, limits_of(steps[-1], {}), together=True)
+    assert program is not None, ran
+    for step in (steps[-1], steps[0]):
+        scene, args, rendered = _last_case(step, project, whole_kit, program)
+        assert rendered.pixels is not None, rendered.ran.outcome.stderr
+        assert (rendered.pixels == reference_picture(whole_kit, scene, args)).all(), step.id
+
+
+def test_every_stand_in_says_that_it_is_one(project: Project) -> None:
+    """By that a program knows which questions it can answer without asking."""
+    for path in sorted((project.root / "framework" / "remote" / "stand_ins").glob("*.cpp")):
+        assert "= remote::stand_in(FunctionId::" in path.read_text("utf-8"), path.name
 
 
 @pytest.mark.parametrize(("at", "name"), [(5, "explicit-stack"), (8, "median-split")])
