@@ -136,29 +136,42 @@ def test_a_bad_manifest_is_the_kits_fault(project: Project) -> None:
 
 
 _SLIPS = [
-    ("points = 20", "pionts = 20", "4:1: unknown key 'pionts'; did you mean points?"),
-    ("points = 20", 'points = "20"', "4:1: points: expected a number above 0; found '20'"),
-    ("points = 20", "points = -2", "4:1: points: expected a number above 0; found -2"),
-    ("points = 20", "points = 20\npoints = 25", "5:1: is not TOML: points stands there twice; keep one of them"),
-    ("bonus = false", 'bonus = "no"', "5:1: bonus: expected true or false; found 'no'"),
-    ("bonus = false", "bonus = False", "5:9: is not TOML: invalid value; true and false are written in small letters"),
-    ("tests = 0.45", "test = 0.45", "44:1: unknown key 'test'; did you mean tests?"),
-    ("tests = 0.45", "tests = 45", "44:1: tests: expected a share from 0 to 1; found 45"),
-    ("tests = 0.45", "tests = 0.55", "43:1: the weights must sum to 1; these sum to 1.1"),
-    ("tests = 0.45\n", "", "43:1: tests is missing; expected a share from 0 to 1"),
-    ("images = 0.15", "images = 0", "43:1: the weights must sum to 1; these sum to 0.85"),
+    ("points = 20", "pionts = 20", "{at}:1: unknown key 'pionts'; did you mean points?"),
+    ("points = 20", 'points = "20"', "{at}:1: points: expected a number above 0; found '20'"),
+    ("points = 20", "points = -2", "{at}:1: points: expected a number above 0; found -2"),
+    ("points = 20", "points = 20\npoints = 25", "{after}:1: is not TOML: points stands there twice; keep one of them"),
+    ("bonus = false", 'bonus = "no"', "{at}:1: bonus: expected true or false; found 'no'"),
+    (
+        "bonus = false",
+        "bonus = False",
+        "{at}:9: is not TOML: invalid value; true and false are written in small letters",
+    ),
+    ("tests = 0.45", "test = 0.45", "{at}:1: unknown key 'test'; did you mean tests?"),
+    ("tests = 0.45", "tests = 45", "{at}:1: tests: expected a share from 0 to 1; found 45"),
+    ("tests = 0.45", "tests = 0.55", "{weights}:1: the weights must sum to 1; these sum to 1.1"),
+    ("tests = 0.45\n", "", "{weights}:1: tests is missing; expected a share from 0 to 1"),
+    ("images = 0.15", "images = 0", "{weights}:1: the weights must sum to 1; these sum to 0.85"),
     (
         "[weights]",
         "left_out = true\n[weights]",
-        "43:1: unknown key 'left_out'; `left_out = ...` belongs above the first",
+        "{at}:1: unknown key 'left_out'; `left_out = ...` belongs above the first",
     ),
-    ("[weights]", "[weights]\n[weights]", "44:1: is not TOML: the table [weights] stands there twice; put all"),
-    ("closest_hit = 2", "closest_hit = 0", "41:1: closest_hit: expected a weight beside the others; found 0"),
-    ("seconds = 10", "secnds = 10", "50:1: unknown key 'secnds'; did you mean seconds?"),
-    ("max_wrong = 0.0015", "max_wrong = 15", "63:1: max_wrong: expected the share of pixels that may be wrong, from 0"),
-    ("max_wrong = 0.0015", "", "59:1: max_wrong is missing; expected the share of pixels"),
-    ('name = "slivers-color"', 'name = "balls-normals"', "60:1: two pictures are called balls-normals"),
-    ("[[images]]", "[images]", "59:1: is not TOML: [images] and [[images]] both stand there"),
+    ("[weights]", "[weights]\n[weights]", "{after}:1: is not TOML: the table [weights] stands there twice; put all"),
+    ("closest_hit = 2", "closest_hit = 0", "{at}:1: closest_hit: expected a weight beside the others; found 0"),
+    ("seconds = 10", "secnds = 10", "{at}:1: unknown key 'secnds'; did you mean seconds?"),
+    (
+        "max_wrong = 0.0015",
+        "max_wrong = 15",
+        "{at}:1: max_wrong: expected the share of pixels that may be wrong, from 0",
+    ),
+    ("max_wrong = 0.0015", "", "{second}:1: max_wrong is missing; expected the share of pixels"),
+    ('name = "slivers-color"', 'name = "balls-normals"', "{at}:1: two pictures are called balls-normals"),
+    (
+        "seconds = 10",
+        "seconds = 10\nprocesses = 1.5",
+        "{after}:1: processes: expected a whole number above 0; found 1.5",
+    ),
+    ("[[images]]", "[images]", "{second}:1: is not TOML: [images] and [[images]] both stand there"),
 ]
 
 
@@ -167,10 +180,23 @@ def test_a_slip_is_told_with_its_place(project: Project, tmp_path: Path, good: s
     path = tmp_path / "02-intersection" / "step.toml"
     path.parent.mkdir()
     text = (project.steps / "02-intersection" / "step.toml").read_text("utf-8")
-    assert good in text
+    lines = text.splitlines()
+    at = next(number for number, line in enumerate(lines, start=1) if good.strip() in line)
+    weights, _, second = [n for n, line in enumerate(lines, start=1) if line in ("[weights]", "[[images]]")][:3]
     path.write_text(text.replace(good, slip, 1), "utf-8")
-    with pytest.raises(GraderFault, match=f"step.toml:{re.escape(told)}"):
+    place = told.format(at=at, after=at + 1, weights=weights, second=second)
+    with pytest.raises(GraderFault, match=f"step.toml:{re.escape(place)}"):
         read_step(path)
+
+
+def test_what_looks_like_a_slip_and_is_none(project: Project, tmp_path: Path) -> None:
+    path = tmp_path / "02-intersection" / "step.toml"
+    path.parent.mkdir()
+    text = (project.steps / "02-intersection" / "step.toml").read_text("utf-8")
+    path.write_text(text.replace("closest_hit = ", "picture = ", 1).replace('"--step", "2"', '"--step", 2'), "utf-8")
+    step = read_step(path)
+    assert step.functions[-1] == "picture"
+    assert step.images[0].args[:2] == ("--step", "2")
 
 
 def test_a_manifest_may_come_from_any_editor_that_writes_utf_8(project: Project, tmp_path: Path) -> None:

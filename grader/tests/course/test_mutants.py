@@ -40,6 +40,7 @@ def _with(tmp_path: Path, step: Step, text: str) -> Project:
     [
         ("sees =", "see =", "19:1: not a catalogue of mistakes: unknown key 'see'; did you mean sees?"),
         ("sees =", "# sees =", "15:1: not a catalogue of mistakes: sees is missing"),
+        ('id = "two"', "", "15:1: not a catalogue of mistakes: id is missing"),
         ('id = "two"', 'id = "Two of them"', "16:1: not a catalogue of mistakes: id: expected a name of small letters"),
         ('id = "two"', 'id = "one"', "15:1: the id one occurs twice; expected another one"),
         ('"view_frame"', '"view_fram"', "15:1: two: view_fram is no function of the step; did you mean view_frame?"),

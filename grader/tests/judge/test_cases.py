@@ -103,6 +103,11 @@ def test_a_students_kit_has_no_plan(tmp_path: Path, steps: list[Step]) -> None:
             "weight = 1\ncolour = 2",
             r":\d+:1: not a plan of hidden cases: unknown key 'colour'; known are",
         ),
+        (
+            '"any ray" = 40',
+            '"0.5: deep [0]" = {cases = 1, weight = 1, foo = 2}',
+            r":\d+:1: not a plan of hidden cases: unknown key 'foo'; known are",
+        ),
         ('size = "', 'size = "big', ':1: not a plan .*: size: expected a size in pixels, such as "151x113"; found'),
         ('"any ray" = 40', '"any rays" = 40', ":1: 'any rays' is no kind of cases of point_at; did you mean any ray"),
         ('"any ray" = 40\n', "", r":\d+:1: 'any ray' is missing, a kind of .*: any ray, simple numbers"),

@@ -39,8 +39,9 @@ _LONGEST = 300  # characters of what is told of a stranger's file
 class Malformed(ValueError):
     """What is wrong with a document, and where."""
 
-    def __init__(self, problem: str) -> None:
-        super().__init__(shorten(problem, _LONGEST))
+    def __init__(self, problem: str, place: str = "") -> None:
+        super().__init__(shorten(f"{place}: {problem}" if place else problem, _LONGEST))
+        self.problem, self.place = problem, place
 
 
 def _position(data: bytes, error: msgspec.DecodeError) -> str:
@@ -53,7 +54,7 @@ def _position(data: bytes, error: msgspec.DecodeError) -> str:
 def _refuse_unknown(told: Iterable[object], known: Collection[str], place: str) -> None:
     for name in told:
         if name not in known:
-            raise Malformed(f"{place}: unknown key {name!r}; known are {', '.join(known)}")
+            raise Malformed(f"unknown key {name!r}; known are {', '.join(known)}", place)
 
 
 def _children(
@@ -69,7 +70,7 @@ def _children(
             if name in told:
                 yield told[name], getattr(found, name), f"{place}.{name}"
             elif complete and not field.metadata:
-                raise Malformed(f"{place}: {name!r} is missing")
+                raise Malformed(f"{name!r} is missing", place)
     elif isinstance(found, dict) and isinstance(told, dict):
         _refuse_unknown(told, found, place)
         yield from ((told[name], value, f"{place}.{name}") for name, value in found.items())
@@ -89,7 +90,7 @@ def convert(document: object, kind: type[T], *, complete: bool = False, extra: b
         made = msgspec.convert(document, kind)
     except msgspec.ValidationError as error:
         what, _, place = str(error).replace("`", "").partition(" - at ")
-        raise Malformed(f"{place or '$'}: {what[0].lower()}{what[1:]}") from error
+        raise Malformed(f"{what[0].lower()}{what[1:]}", place or "$") from error
     except UnicodeError as error:
         raise Malformed("holds half a character") from error
     _check_keys(document, made, "$", complete=complete, extra=extra)
@@ -246,7 +247,7 @@ def _table_twice(line: str, text: str) -> str:
     if header is None:
         return ""
     name = header[2].strip()
-    forms = {found[1] for found in map(_HEADER.match, text.splitlines()) if found and found[2].strip() == name}
+    forms = {found[1] for found in map(_HEADER.match, text.split("\n")) if found and found[2].strip() == name}
     if "[[" in forms:
         return f"[{name}] and [[{name}]] both stand there; write [[{name}]] each time"
     if re.search(rf"(?m)^\s*{re.escape(name)}\s*=", text):
@@ -258,7 +259,7 @@ def _not_toml(text: str, error: tomllib.TOMLDecodeError) -> str:
     """`LINE:COLUMN: is not TOML: why; what to write instead`."""
     what, _, _ = str(error).partition(" (at ")
     told = re.search(r"\(at line (\d+), column (\d+)\)", str(error))
-    lines = text.splitlines() or [""]
+    lines = text.split("\n")
     twice = _said_twice(text) if what.startswith("Cannot overwrite") else None
     if twice is not None:
         return f"{twice[0]}:1: is not TOML: {twice[1]} stands there twice; keep one of them"
@@ -301,53 +302,64 @@ _STEP_DOWN = re.compile(r"\.([^.\[\]]+)|\[(\d+|\.\.\.)\]")
 _SOME_ENTRY = "..."  # of a table whose keys are free: which one, msgspec does not tell
 
 
-def _with_one(document: Any, path: Sequence[str], name: str) -> Any:
-    """The document with only that entry in the table at that path."""
-    if not path:
-        return {name: document[name]}
-    if isinstance(document, list):
-        return [_with_one(it, path[1:], name) if str(at) == path[0] else it for at, it in enumerate(document)]
-    return {**document, path[0]: _with_one(document[path[0]], path[1:], name)}
-
-
-def _problem(document: object, kind: type[object]) -> str:
-    try:
-        convert(document, kind)
-    except Malformed as error:
-        return str(error)
-    return ""
-
-
 def _at(document: Any, path: Sequence[str]) -> Any:
     for name in path:
-        document = document[int(name)] if isinstance(document, list) else document.get(name)
+        document = document[int(name)] if isinstance(document, list) else document[name]
     return document
 
 
-def _path_of(document: object, kind: type[object], problem: str) -> list[str]:
-    """The keys that lead to what a problem is about."""
+def _changed(document: Any, path: Sequence[str], value: object) -> Any:
+    """The document with another value at that path."""
+    if not path:
+        return value
+    if isinstance(document, list):
+        return [_changed(it, path[1:], value) if str(at) == path[0] else it for at, it in enumerate(document)]
+    return {**document, path[0]: _changed(document[path[0]], path[1:], value)}
+
+
+def _malformed(document: object, kind: type[object]) -> Malformed:
+    """What is wrong with it: nothing, where the problem is empty."""
+    try:
+        convert(document, kind)
+    except Malformed as error:
+        return error
+    return Malformed("")
+
+
+def _path_of(document: object, kind: type[object], error: Malformed) -> list[str]:
+    """The keys that lead to what is wrong, as far as they can be told: a key can be made of anything."""
     path = list[str]()
-    for key, number in _STEP_DOWN.findall(problem.partition(": ")[0]):
-        name = key or number
-        if name == _SOME_ENTRY:
-            ones = {one: _with_one(document, path, one) for one in _at(document, path)}
-            name, document = next((one, it) for one, it in ones.items() if _problem(it, kind) == problem)
+    for key, number in _STEP_DOWN.findall(error.place):
+        name, here = key or number, _at(document, path)
+        if name == _SOME_ENTRY and isinstance(here, dict):
+            alone = {one: _changed(document, path, {one: it}) for one, it in here.items()}
+            name = next((one for one, it in alone.items() if str(_malformed(it, kind)) == str(error)), "")
+            document = alone.get(name, document)
+        if not (isinstance(here, list) or (isinstance(here, dict) and name in here)):
+            break
         path.append(name)
     return path
 
 
 _KINDS = {"int": "a whole number", "float": "a number", "str": "text", "array": "a list", "object": "a table"}
 _KIND_NAME = re.compile(r"\b(?:int|float|str|array|object)\b")
+_OR_NOTHING = " | null"
+_LONGEST_VALUE = 80
 
 
 _MISSING = re.compile("object missing required field (.*)")
 
 
-def _misspelled(problem: str, found: object) -> str:
-    """The problem; a key that is missing where one much like it stands is that one, misspelled."""
-    missing = _MISSING.fullmatch(problem)
+def _misspelled(document: object, path: Sequence[str], kind: type[object], problem: str) -> str:
+    """The problem; a key that is missing where one much like it stands, and is nothing else's, is that one."""
+    missing, found = _MISSING.fullmatch(problem), _at(document, path)
     other = nearest(missing[1], found) if missing is not None and isinstance(found, dict) else None
-    return problem if missing is None or other is None else f"unknown key '{other}'; did you mean {missing[1]}?"
+    if missing is None or other is None:
+        return problem
+    unfit = _malformed(_changed(document, path, {**found, other: ...}), kind)  # which no key takes that is read
+    if unfit.place.endswith(f".{other}"):
+        return problem
+    return f"unknown key '{other}'; did you mean {missing[1]}?"
 
 
 def _in_words(problem: str, found: object, path: Sequence[str], expected: Mapping[str, str]) -> str:
@@ -357,15 +369,14 @@ def _in_words(problem: str, found: object, path: Sequence[str], expected: Mappin
         return f"{missing[1]} is missing"
     if problem.startswith("unknown key"):
         return problem
-    words = expected.get(path[-1] if path else "")
+    names = [name for name in path if not name.isdecimal()]
+    words = expected.get(names[-1]) if names else None
     if words is None:
-        words = _KIND_NAME.sub(lambda kind: _KINDS[kind[0]], problem.partition(", got ")[0].removeprefix("expected "))
-        words = words.replace(" | ", " or ")
-    name = f"{path[-1]}: " if path else ""
+        words = problem.partition(", got ")[0].removeprefix("expected ").removesuffix(_OR_NOTHING)
+        words = words.replace("of length >= 1", "that is not empty").replace(">=", "of at least").replace(" | ", " or ")
+        words = _KIND_NAME.sub(lambda kind: _KINDS[kind[0]], words)
+    name = f"{names[-1]}: " if names else ""
     return f"{name}expected {words}; found {shorten(repr(found), _LONGEST_VALUE)}"
-
-
-_LONGEST_VALUE = 80
 
 
 def parse_table(text: str, path: Path, what: str, kind: type[T], expected: Mapping[str, str] | None = None) -> T:
@@ -374,8 +385,8 @@ def parse_table(text: str, path: Path, what: str, kind: type[T], expected: Mappi
     try:
         return convert(table, kind)
     except Malformed as error:
-        keys = _path_of(table, kind, str(error))
-        problem = _misspelled(str(error).partition(": ")[2], _at(table, keys))
+        keys = _path_of(table, kind, error)
+        problem = _misspelled(table, keys, kind, error.problem)
         unknown = re.match("unknown key '([^']*)'", problem)
         place = place_in_toml(text, [*keys, *([unknown[1]] if unknown else [])])
         told = _in_words(problem, _at(table, keys), keys, expected or {})

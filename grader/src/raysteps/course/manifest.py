@@ -118,7 +118,7 @@ def _image(table: dict[str, Any]) -> ImageCase:
     return ImageCase(
         name=table["name"],
         scene=table["scene"],
-        args=tuple(table.get("args", [])),
+        args=tuple(map(str, table.get("args", []))),
         max_wrong=0.0 if "max_noise" in table else float(table["max_wrong"]),
         max_share=float(table["max_share"]) if "max_share" in table else None,
         paper_tests=float(table["paper_tests"]) if "paper_tests" in table else None,
@@ -142,8 +142,16 @@ def _are_texts(value: object) -> bool:
     return isinstance(value, list) and all(map(_is_text, value))
 
 
+def _are_words(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(word, str) or _is_positive(word) for word in value)
+
+
 def _is_positive(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < math.inf
+
+
+def _is_whole(value: object) -> bool:
+    return _is_positive(value) and value == int(value)  # type: ignore[call-overload]
 
 
 def _is_share(value: object) -> bool:
@@ -181,11 +189,13 @@ _MANIFEST: _Form = {
     "images": (lambda value: isinstance(value, list) and all(map(_is_table, value)), "a table [[images]] per picture"),
 }
 _WEIGHTS: _Form = dict.fromkeys(("tests", "images", "hidden", "together"), (_is_share, "a share from 0 to 1"))
-_LIMITS: _Form = dict.fromkeys(LIMIT_NAMES, (_is_positive, "a number above 0"))
+_LIMITS: _Form = dict.fromkeys(LIMIT_NAMES, (_is_whole, "a whole number above 0")) | dict.fromkeys(
+    ("seconds", "compile_seconds"), (_is_positive, "a number above 0")
+)
 _IMAGE: _Form = {
     "name": (_is_text, "a name in quotes"),
     "scene": (_is_text, "a file in quotes, as seen from the kit's folder"),
-    "args": (_are_texts, 'a list of words, such as ["--step", "4", "--size", "160x120"]'),
+    "args": (_are_words, 'a list of words, such as ["--step", "4", "--size", "160x120"]'),
     "max_wrong": (_is_share, "the share of pixels that may be wrong, from 0 to 1"),
     "max_share": (_is_share, "the share of objects that a ray may be tested with, from 0 to 1"),
     "paper_tests": (_is_positive, "a number of tests per ray"),
@@ -204,6 +214,8 @@ class _Wrong(Exception):
 
 def _known(key: str, form: _Form) -> str:
     """The end of a sentence about a key that does not belong there."""
+    if key == "images":
+        return "; pictures are tables of their own, [[images]]"
     if key in _MANIFEST:
         return f"; `{key} = ...` belongs above the first line in brackets"
     return did_you_mean(key, form) or f"; known are {', '.join(form)}"
@@ -224,8 +236,9 @@ def _refuse_misfits(table: Mapping[str, Any], form: _Form, needed: Sequence[str]
 
 def _refuse_wrong(table: Mapping[str, Any], text: str) -> None:
     _refuse_misfits(table, _MANIFEST, ("id", "title", "points", "files", "functions", "weights", "limits"))
-    functions = dict.fromkeys(
-        (name for name in table["functions"] if name not in _MANIFEST), (_is_positive, "a weight beside the others")
+    functions = dict.fromkeys(  # one may be called as a key is; what has no weight is that key, below the wrong table
+        (name for name, weight in table["functions"].items() if name not in _MANIFEST or _is_positive(weight)),
+        (_is_positive, "a weight beside the others"),
     )
     _refuse_misfits(table["functions"], functions, (), "functions")
     _refuse_misfits(table["weights"], _WEIGHTS, tuple(_WEIGHTS), "weights")
@@ -547,6 +560,6 @@ def course_manifests(project: Project) -> dict[str, bytes]:
         path = project.steps / step.id / "step.toml"
         if read_step(path).points != step.points:
             line = f"points = {step.points!r}".removesuffix(".0")  # reads back as the same number
-            text = re.sub(r"^points\s*=.*$", line, path.read_text("utf-8"), count=1, flags=re.MULTILINE)
+            text = re.sub(r"^points\s*=.*$", line, path.read_text("utf-8-sig"), count=1, flags=re.MULTILINE)
             made[path.relative_to(project.root).as_posix()] = text.encode()
     return made

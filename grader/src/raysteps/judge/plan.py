@@ -122,8 +122,8 @@ def _wrong_kinds(function: FunctionPlan, kinds: Sequence[str]) -> tuple[str, str
             return kind, f"'{kind}' is no kind of cases of {function.name}{did_you_mean(kind, kinds) or '.'}"
     for kind in kinds:
         if kind not in found:
-            return "", f"'{kind}' is missing, a kind of cases of {function.name};"
-    return "", "" if found == list(kinds) else "the kinds of cases stand in another order;"
+            return "", f"'{kind}' is missing, a kind of cases of {function.name}."
+    return "", "" if found == list(kinds) else "the kinds of cases stand in another order."
 
 
 def _check_names(plan: Plan, step: Step, text: str, path: Path) -> None:
@@ -141,7 +141,7 @@ def _check_names(plan: Plan, step: Step, text: str, path: Path) -> None:
         kind, wrong = _wrong_kinds(function, kinds)
         if wrong:
             place = place_in_toml(text, ["functions", function.name, "cases", kind])
-            raise GraderFault(f"{path}:{place}: {wrong} expected, in this order: {', '.join(kinds)}")
+            raise GraderFault(f"{path}:{place}: {wrong} Expected, in this order: {', '.join(kinds)}")
     twins, pictures = [twin.twin_of for twin in plan.twins], [image.name for image in step.images]
     if twins != pictures:
         raise GraderFault(

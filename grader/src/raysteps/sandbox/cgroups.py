@@ -92,8 +92,8 @@ class Group:
         when all its processes are dead."""
         if self._was_killed_in() and not self._took_much():
             raise GraderFault(
-                "the system ended a program of the submission because the machine, or the container, had no more "
-                "memory, not because of what this program took: grade fewer at a time (--jobs)"
+                "the system ended what ran of the submission because the machine, or the container, had no more "
+                "memory, not because of what that took: grade fewer at a time (--jobs)"
             )
 
 
