@@ -209,7 +209,7 @@ void Wire::resume_next() {
         self->switch_to(*next.fiber);
     } else {
         next.fiber->resume();
-        switch_conversation(0);
+        switch_conversation(0);  // from whichever ran last
     }
 }
 
