@@ -3,6 +3,12 @@
 #include <sys/mman.h>
 #include <cerrno>
 #include <system_error>
+#include "remote/system_place.hpp"
+#if RAYSTEPS_SANITIZED
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_UNPOISON_MEMORY_REGION(address, size)
+#endif
 
 namespace raysteps::remote {
 
@@ -28,6 +34,8 @@ Stack::Stack() {
     if (base_ == MAP_FAILED || mprotect(base_, k_guard_bytes, PROT_NONE) != 0) {
         throw std::system_error(errno, std::generic_category(), "no stack for a fiber");
     }
+    // The sanitizer still knows what lay here on a stack that was given back.
+    ASAN_UNPOISON_MEMORY_REGION(lowest(), k_mapped_bytes - k_guard_bytes);
 }
 
 Stack::~Stack() { munmap(base_, k_mapped_bytes); }

@@ -187,13 +187,6 @@ TEST_CASE("an answer that needs no question is of the conversation that was aske
     }
 }
 
-TEST_CASE("who says that it answers without a question must not ask", "[remote]") {
-    const Pair pair;
-    const auto always = [](std::string_view /*question*/) { return true; };
-    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up, always);
-    CHECK(ending_of([&] { wire.run_together(2, [&] { static_cast<void>(ask(wire, 5)); }); }) == Wire::k_fault);
-}
-
 TEST_CASE("questions without an end, and an end that is gone, end the program", "[remote]") {
     const Pair pair;
     Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
@@ -296,6 +289,22 @@ TEST_CASE("what a box's own conversations count is somebody's", "[remote]") {
     static_cast<void>(ask(wire, 1));
     CHECK(thread_stats().surface_tests == before + 2);
     for (const int file : {in[0], out[0], out[1]}) {
+        close(file);
+    }
+}
+
+TEST_CASE("who says that it answers without a question must not ask", "[remote]") {
+    std::array<int, 2> in{};
+    std::array<int, 2> out{};
+    REQUIRE(pipe(in.data()) == 0);
+    REQUIRE(pipe(out.data()) == 0);
+    const std::string batch = batch_of({{1, Kind::question}});
+    REQUIRE(write(in[1], batch.data(), batch.size()) == static_cast<ssize_t>(batch.size()));
+    const auto asks = [](Wire& wire, std::string_view /*question*/) { static_cast<void>(ask(wire, 1)); };
+    const auto always = [](std::string_view /*question*/) { return true; };
+    Wire wire(Wire::End::home, {in[0], out[1]}, asks, hang_up, always);
+    CHECK(ending_of([&] { wire.run_together(1, [&] { static_cast<void>(ask(wire, 5)); }); }) == Wire::k_fault);
+    for (const int file : {in[0], in[1], out[0], out[1]}) {
         close(file);
     }
 }

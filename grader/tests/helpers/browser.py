@@ -98,8 +98,16 @@ class Watched:
         self.troubles.append(f"error: {error}")
 
     def close(self) -> None:
-        for context in self._contexts:
-            context.close()
+        while self._contexts:
+            self._contexts.pop().close()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Item) -> None:
+    """Pages are closed before what serves them: one that still loads when its server goes has trouble of nobody's."""
+    for value in getattr(item, "funcargs", {}).values():
+        if isinstance(value, Watched):
+            value.close()
 
 
 @pytest.fixture

@@ -226,7 +226,8 @@ def test_rays_that_are_deep_in_the_tree_fit_with_large_text(tmp_path: Path, open
 def test_without_scripts_the_tree_says_it_in_words(tmp_path: Path, open_page: OpenPage) -> None:
     write_page(ball_record(), None, None, tmp_path / "inside.html")
     page = open_page(tmp_path / "inside.html", scripts=False)
-    assert page.get_by_text("eye ray").first.is_visible()
+    page.locator("summary", has_text="eye ray").first.wait_for()
+    page.locator('[data-part="stage"]').wait_for(state="hidden")
     said = "<noscript><p>The rays in three dimensions need scripts."  # which a browser of tests does not show
     assert said in (tmp_path / "inside.html").read_text("utf-8")
 

@@ -102,8 +102,8 @@ def test_an_error_stands_at_its_line(page: "Page", solved: dict[str, str]) -> No
 
     wrong = solved["01-camera-rays"].replace(POINT, "return ray.orgin;") + "auto twice(glm::vec3 v) { return 2 * v; }\n"
     line = next(at for at, text in enumerate(wrong.splitlines(), start=1) if "orgin" in text)
-    save(page, wrong)
     expect(page.locator("#play-stale")).to_be_hidden()
+    save(page, wrong)
     status_says(page, r"It does not compile\.")
     expect(page.locator("#play-stale")).to_be_visible()
     expect(page.locator("#play-problems")).to_contain_text("no member named 'orgin' in 'raysteps::Ray'")
