@@ -264,11 +264,11 @@ def _not_toml(text: str, error: tomllib.TOMLDecodeError) -> str:
     if twice is not None:
         return f"{twice[0]}:1: is not TOML: {twice[1]} stands there twice; keep one of them"
     line, column = (int(told[1]), int(told[2])) if told is not None else (len(lines), len(lines[-1]) + 1)
-    table = _table_twice(lines[min(line, len(lines)) - 1], text) if re.match("Cannot (overwrite|declare)", what) else ""
+    wrong = lines[min(line, len(lines)) - 1]
+    table = _table_twice(wrong, text) if re.match("Cannot (overwrite|declare)", what) else ""
     if table:
         return f"{line}:1: is not TOML: {table}"
-    advice = _advice(what, lines[min(line, len(lines)) - 1])
-    return f"{line}:{column}: is not TOML: {what[:1].lower()}{what[1:]}{advice}"
+    return f"{line}:{column}: is not TOML: {what[:1].lower()}{what[1:]}{_advice(what, wrong)}"
 
 
 def read_toml(text: str, name: str) -> dict[str, Any]:
@@ -345,8 +345,6 @@ _KINDS = {"int": "a whole number", "float": "a number", "str": "text", "array": 
 _KIND_NAME = re.compile(r"\b(?:int|float|str|array|object)\b")
 _OR_NOTHING = " | null"
 _LONGEST_VALUE = 80
-
-
 _MISSING = re.compile("object missing required field (.*)")
 
 
