@@ -115,7 +115,6 @@ def watched(browser: "Browser") -> Iterator[Watched]:
     """For tests that expect trouble, or allow a server: fails the test for any other trouble, and for a lack of it."""
     pages = Watched(browser)
     yield pages
-    pages.close()
     wanted = [trouble for trouble in pages.troubles if pages.expected and re.search(pages.expected, trouble)]
     assert [trouble for trouble in pages.troubles if trouble not in wanted] == []
     assert bool(wanted) == bool(pages.expected)
