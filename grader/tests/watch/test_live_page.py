@@ -154,12 +154,14 @@ def test_another_step_takes_the_place_of_this_one(live: Live, pages: Watched, st
 def test_reloaded_it_is_the_same(live: Live, pages: Watched) -> None:
     live.show(_failing(live))
     page = pages.open(live.server.address)
+    named = "Most likely: left and right <i>change places</i>"
     _says(page, "#watch-verdict", "2.5 of 10 points")
+    _says(page, ".watch-name", named)
     said = page.locator("main").inner_text()
     page.reload()
     _says(page, "#watch-verdict", "2.5 of 10 points")
-    assert page.locator("main").inner_text() == said
-    _says(page, ".watch-name", "Most likely: left and right <i>change places</i>")
+    _says(page, ".watch-name", named)
+    page.wait_for_function("said => document.querySelector('main').innerText === said", arg=said)
 
 
 def test_it_says_when_nobody_watches_any_more(live: Live, pages: Watched) -> None:
