@@ -6,6 +6,7 @@ from pathlib import Path
 
 from raysteps.common.text import join_and
 from raysteps.course.manifest import ImageCase, Step
+from raysteps.grading.unit_tests import limits_after
 from raysteps.images.compare import (
     MAX_PARTIAL_SHARE,
     Comparison,
@@ -51,10 +52,7 @@ class ImageGrader:
         self.limits = self.limits.after_a_stop()
 
     def stopped_in(self, tests: Sequence[TestResult]) -> None:
-        """All together, and then each by itself."""
-        if any(test.limit for test in tests):
-            self.stopped()
-            self.stopped()
+        self.limits = limits_after(tests, self.limits)
 
     def args_of(self, case: ImageCase) -> tuple[str, ...]:
         """In a students' kit without a tree where the picture does not ask for one: step 07 needs no step 06."""

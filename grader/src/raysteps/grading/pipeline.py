@@ -4,12 +4,11 @@ import hashlib
 import tempfile
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
 
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import GraderFault, RaystepsError, reason_and_place
@@ -27,8 +26,16 @@ from raysteps.grading.images import (
     trouble,
 )
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import TURN, GradingContext, Programs, StepGrader, answers_of, compile_steps
-from raysteps.grading.unit_tests import known_to_hang, run_tests, set_aside
+from raysteps.grading.step import (
+    TURN,
+    GradingContext,
+    Programs,
+    SpareProcessors,
+    StepGrader,
+    answers_of,
+    compile_steps,
+)
+from raysteps.grading.unit_tests import known_to_hang, limits_after, run_tests, set_aside
 from raysteps.grading.withhold import withhold
 from raysteps.images.render import Gate, Rendered, judge_picture
 from raysteps.judge.counterexamples import Examples
@@ -47,30 +54,6 @@ from raysteps.toolchain.limits import StepLimits, submission_seconds
 # Of the time of a submission, and beside it: to ask a wrong function again may better it, and must cost nobody a step.
 _APART = 0.25
 _NOT_GRADED = "This step was not graded, by a fault of the grader and not of your code: somebody has to look at it."
-
-
-_T = TypeVar("_T")
-
-
-class SpareProcessors:
-    """Begins work ahead of time where a machine has more processors than there are steps to grade: somebody waits for
-    one step after a save."""
-
-    def __init__(self, amount: int, ends: ExitStack) -> None:
-        self._pool = ends.enter_context(ThreadPoolExecutor(amount)) if amount > 0 else None
-        if self._pool is not None:
-            ends.callback(self._pool.shutdown, wait=False, cancel_futures=True)
-
-    def start(self, work: Callable[[], _T]) -> "Future[_T] | None":
-        """None where no processor is spare. Whoever cannot wait cancels the future, and does the work itself."""
-        return None if self._pool is None else self._pool.submit(work)
-
-    def make_questions(self, work: GradingContext, chosen: Sequence[Step], seed: int) -> None:
-        """While the compiler works; what is made is kept."""
-        for step in chosen if self._pool is not None else ():
-            plan = read_plan(work.kit.project, step)
-            if plan is not None and work.source(step) is not None:
-                self.start(partial(make_all_cases, step, plan, seed))
 
 
 @dataclass(frozen=True)
@@ -127,32 +110,20 @@ class HiddenStepGrader(StepGrader):
             self._result = StepResult(step.id, "failed", 0.0, most, step.bonus, messages=[_NOT_GRADED])
 
     def grade(self) -> StepResult:
-        """The visible tests, then pictures, those of scenes that nobody has seen, too, and the judge's cases."""
+        """The visible tests and the judge's cases, and pictures, those of scenes that nobody has seen, too."""
         with self._guarded():
             programs = self.programs()
             if programs is None:
                 return self._result
             step, plan, result, kit, gallery = self.step, self._plan, self._result, self._work.kit, self._gallery
-            self._run_tests(programs["test"])
-            binary = self._compiled[step.id].binary
-            completed = None if binary is None else self._completed(binary)
-            if completed is not None:
-                self._run_tests_again(completed["test"])
-            limits = gallery.limits  # pictures may be made meanwhile; one that hangs takes no time from functions
-            ask_all: Callable[[], list[HiddenResult]] = list
-            unseen: Sequence[HiddenScene] = ()
-            if plan is not None:
-                ask_all = self._asking(plan, programs["worker"], completed, limits)
-                unseen = hidden_scenes(kit.project, step, plan, self._settings.seed)
-            asked = self._spare.start(ask_all)
-            for case in step.images:
-                result.images.append(judge(gallery, programs["raytrace"], step, case))
+            completed = self._completed()
+            unseen = () if plan is None else hidden_scenes(kit.project, step, plan, self._settings.seed)
             scenes = []
-            for scene in unseen:
-                scenes.append(self._render_scene(programs["raytrace"], scene))
-            result.hidden = ask_all() if asked is None or asked.cancel() else asked.result()
-            if plan is not None and binary is not None:
-                self._ask_apart(binary, plan, limits)
+            with self._spare.beside(partial(self._test_and_ask, programs, completed)):
+                for case in step.images:
+                    result.images.append(judge(gallery, programs["raytrace"], step, case))
+                for scene in unseen:
+                    scenes.append(self._render_scene(programs["raytrace"], scene))
             not_spared = unspared(result.images, result.hidden)
             take_back(result.images, result.hidden)
             spares = not why_unspared(result.hidden)
@@ -163,18 +134,22 @@ class HiddenStepGrader(StepGrader):
             self._ran = True
         return self._result
 
-    def _asking(
-        self, plan: Plan, worker: Program, completed: Programs | None, limits: StepLimits
-    ) -> Callable[[], list[HiddenResult]]:
-        """Asks the judge's cases when it is called."""
-        kit, settings = self._work.kit, self._settings
-        ask = self._ask = self._asked_of(worker, completed, limits)
+    def _test_and_ask(self, programs: Programs, completed: Programs | None) -> None:
+        """The visible tests, then the judge's cases."""
+        kit, result, settings, plan = self._work.kit, self._result, self._settings, self._plan
+        self._run_tests(programs["test"])
+        if completed is not None:
+            self._run_tests_again(completed["test"])
+        if plan is None:
+            return
+        tests = kit.tests[self.step.id]
+        limits = limits_after(result.tests, self._limits)
+        ask = self._ask = self._asked_of(programs["worker"], completed, limits)
         if settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
             self._examples = Examples(
                 ask, lambda cases, _: reference_unkept(kit, cases), self._work.out, self._work.say
             )
-        return partial(
-            run_hidden_tests,
+        result.hidden = run_hidden_tests(
             self.step,
             plan,
             ask,
@@ -182,8 +157,9 @@ class HiddenStepGrader(StepGrader):
             settings.seed,
             limits.seconds,
             self._examples,
-            known_to_hang(self._result.tests, kit.tests[self.step.id]),
+            known_to_hang(result.tests, tests),
         )
+        self._ask_apart(plan, limits)
 
     def _render_scene(self, program: Program, scene: HiddenScene) -> _RenderedScene:
         """One that nobody has seen. The file's name says nothing about what it is for."""
@@ -234,7 +210,14 @@ class HiddenStepGrader(StepGrader):
         functions = self.step.functions
         return list(functions[max(map(functions.index, self._unfinished), default=len(functions)) + 1 :])
 
-    def _completed(self, binary: Path) -> Programs | None:
+    @property
+    def _binary(self) -> dict[str, Path]:
+        """By its step's number."""
+        binary = self._compiled[self.step.id].binary
+        assert binary is not None
+        return {self.step.number: binary}
+
+    def _completed(self) -> Programs | None:
         """The programs of the tests and of the judge with the reference's function in place of the one that is not
         written. None where it is not a single one or the last, or where steps are no libraries: with more of them
         missing, what is left would be taken for most of the work."""
@@ -244,7 +227,7 @@ class HiddenStepGrader(StepGrader):
             return None
         programs: Programs = {}
         for kind in ("test", "worker"):
-            program, _ = self._build.program(kind, step, {step.number: binary}, self._limits, replaced=names)
+            program, _ = self._build.program(kind, step, self._binary, self._limits, replaced=names)
             if program is None:
                 return None
             programs[kind] = program
@@ -274,7 +257,7 @@ class HiddenStepGrader(StepGrader):
     # A function that is wrong costs its own hidden points only: those after it, which may call it, are asked again with
     # the reference's in its place.
 
-    def _ask_apart(self, binary: Path, plan: Plan, limits: StepLimits) -> None:
+    def _ask_apart(self, plan: Plan, limits: StepLimits) -> None:
         """Whoever is better so is judged so. Who hung is not asked again, nor anybody where several functions are not
         written: as in `_completed`, what is left would be taken for most of the work. A tree that spares nothing stays:
         a search through it spares nothing either."""
@@ -288,7 +271,7 @@ class HiddenStepGrader(StepGrader):
             if item.outcome != "timeout":
                 replaced = {other.name for other in wrong[:before] if not other.spares_nothing}
                 replaced |= missing if item.name in self._after_missing() else set()
-                worker = self._worker_with(binary, replaced)
+                worker = self._worker_with(replaced)
             if worker is None:
                 continue
             again = run_hidden_tests(
@@ -312,12 +295,11 @@ class HiddenStepGrader(StepGrader):
                 "those before them that are wrong."
             )
 
-    def _worker_with(self, binary: Path, replaced: Collection[str]) -> Program | None:
+    def _worker_with(self, replaced: Collection[str]) -> Program | None:
         """With the reference's functions in place of these. None where steps are no libraries."""
         step, names = self.step, self._work.kit.linker_names(self.step, replaced)
-        binaries = {step.number: binary}
         build = StudentBuild(self._work.kit, self._apart, self._work.folder)
-        return build.program("worker", step, binaries, self._limits, replaced=names)[0] if names else None
+        return build.program("worker", step, self._binary, self._limits, replaced=names)[0] if names else None
 
     @property
     def has_to_learn(self) -> bool:
@@ -390,6 +372,14 @@ def _tell_of_the_limit(steps: list[StepResult], seconds: float) -> None:
             )
 
 
+def _make_questions(work: GradingContext, chosen: Sequence[Step], seed: int) -> None:
+    """What is made is kept."""
+    for step in chosen:
+        plan = read_plan(work.kit.project, step)
+        if plan is not None and work.source(step) is not None:
+            make_all_cases(step, plan, seed)
+
+
 def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
 
@@ -430,7 +420,7 @@ def grade_submission(
             ahead.until_interrupted(),
         ):
             say("building the steps")
-            spare.make_questions(work, chosen, settings.seed)
+            spare.prepare(partial(_make_questions, work, chosen, settings.seed))  # while the compiler works
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
             graders = [

@@ -5,8 +5,9 @@ import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from raysteps.common.errors import RaystepsError
@@ -15,7 +16,7 @@ from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, earlier
 from raysteps.grading.images import judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import GradingContext, StepGrader, answers_of, compile_steps
+from raysteps.grading.step import GradingContext, SpareProcessors, StepGrader, answers_of, compile_steps
 from raysteps.grading.unit_tests import has_crashed, has_hung, set_aside, tell_crash_line
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
@@ -24,6 +25,7 @@ from raysteps.sandbox.task import AccountingSandbox, Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import NOTHING_AHEAD, Compiled, CompiledAhead, Program, StudentBuild, own_libraries
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
+from raysteps.toolchain.limits import StepLimits
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
 
@@ -42,7 +44,17 @@ _LARGE_SECONDS = 5.0  # of all large pictures together, on the clock: nobody wai
 class SelfCheckGrader(StepGrader):
     """What a student can be told at home."""
 
-    _raytrace: Program | None = None
+    def __init__(
+        self,
+        work: GradingContext,
+        step: Step,
+        limits: StepLimits,
+        compiled: dict[str, Compiled],
+        spare: SpareProcessors,
+    ) -> None:
+        super().__init__(work, step, limits, compiled)
+        self._spare = spare
+        self._raytrace: Program | None = None
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
         own = own_steps(self._work, self.step, self._compiled) | {self.step.number: binary}
@@ -53,9 +65,9 @@ class SelfCheckGrader(StepGrader):
         result, programs = self._result, self.programs()
         if programs is not None:
             self._raytrace = programs["raytrace"]
-            self._run_tests(programs["test"])
-            for case in self.step.images:
-                result.images.append(judge(self._gallery, programs["raytrace"], self.step, case))
+            with self._spare.beside(partial(self._run_tests, programs["test"])):
+                for case in self.step.images:
+                    result.images.append(judge(self._gallery, programs["raytrace"], self.step, case))
             source = self._work.source(self.step) or ""
             set_aside(result, self.step, self._work.kit.tests[self.step.id], source)
             result.messages += sum_up(result)
@@ -168,17 +180,19 @@ def _check(
     found: dict[str, StepResult] = {}
     graders: list[SelfCheckGrader] = []
     with (
+        ExitStack() as ends,
         ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
         counted.until_interrupted(),
         work.ahead.until_interrupted(),
     ):
         work.say("building the steps")
+        spare = SpareProcessors(jobs - len(chosen), ends)
         compiled = compile_steps(work, list(steps), pool, {})
 
         def check(step: Step) -> StepResult:
             unseen = replace(work, out=work.folder / "unseen", say=lambda text: None)
             here = work if step in chosen else unseen
-            grader = SelfCheckGrader(here, step, work.kit.limits_of(step), compiled)
+            grader = SelfCheckGrader(here, step, work.kit.limits_of(step), compiled, spare)
             if step in chosen:
                 graders.append(grader)
             return grader.check()

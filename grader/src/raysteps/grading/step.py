@@ -1,8 +1,9 @@
 """What grading a step at home and in a course have in common: it is built, and its visible tests are run."""
 
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor, wait
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -177,6 +178,44 @@ class StepGrader:
         for test in self._result.tests:
             test.weight = weights[test.name]
         self._gallery.stopped_in(self._result.tests)
+
+
+# What a machine with more processors than there are steps to grade can do meanwhile: somebody waits for one step after
+# a save.
+
+
+class SpareProcessors:
+    """So many of them; `ends` ends what they were begun with."""
+
+    def __init__(self, amount: int, ends: ExitStack) -> None:
+        self._pool = ends.enter_context(ThreadPoolExecutor(amount)) if amount > 0 else None
+        if self._pool is not None:
+            ends.callback(self._pool.shutdown, wait=False, cancel_futures=True)
+
+    def prepare(self, work: Callable[[], object]) -> None:
+        """Does what may be wanted later, where a processor is spare."""
+        if self._pool is not None:
+            self._pool.submit(work)
+
+    @contextmanager
+    def beside(self, work: Callable[[], None]) -> Iterator[None]:
+        """Does the work beside the block where a processor is spare, and else before it. When the block ends, it is
+        done."""
+        if self._pool is None:
+            work()
+            yield
+            return
+        begun = self._pool.submit(work)
+        try:
+            yield
+        finally:
+            is_left = begun.cancel()
+            if not is_left:
+                wait([begun])
+        if is_left:
+            work()
+        else:
+            begun.result()
 
 
 # Compiles the steps of a submission, several at a time.

@@ -142,6 +142,11 @@ def _cut_short(ran: TaskResult, names: Collection[str], seconds: float) -> CutRe
     return cut if len(set(told)) == len(told) and set(told) <= set(names) else None
 
 
+def limits_after(tests: Iterable[TestResult], limits: StepLimits) -> StepLimits:
+    """For what runs after them: where one was stopped, two programs were, that of all together and its own."""
+    return limits.after_a_stop().after_a_stop() if any(test.limit for test in tests) else limits
+
+
 def known_to_hang(tests: Iterable[TestResult], functions: Mapping[str, Sequence[str]]) -> set[str]:
     """Functions for which the step's whole time was not enough, in a test of nothing else."""
     hung = [functions[test.name] for test in tests if test.limit == "time"]

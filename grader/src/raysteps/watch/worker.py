@@ -112,14 +112,16 @@ class QuickLook:
             return result
         gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
-        result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits, self.say)
-        gallery.stopped_in(result.tests)
-        waiting = set_aside(result, self.step, self.kit.tests[self.step.id], source)
-        self.tell(result)
-        for case in self.step.images:
-            result.images.append(judge(gallery, raytrace, self.step, case))
-            set_pictures_aside(result.images[-1:], waiting)
+        with ThreadPoolExecutor(1) as beside:
+            drawn = [beside.submit(judge, gallery, raytrace, self.step, case) for case in self.step.images]
+            result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits, self.say)
+            gallery.stopped_in(result.tests)
+            waiting = set_aside(result, self.step, self.kit.tests[self.step.id], source)
             self.tell(result)
+            for picture in drawn:
+                result.images.append(picture.result())
+                set_pictures_aside(result.images[-1:], waiting)
+                self.tell(result)
         passed = [item.passed for items in (result.tests, result.images) for item in items]
         result.status = "passed" if all(passed) else "partial" if any(passed) else "failed"
         return result
