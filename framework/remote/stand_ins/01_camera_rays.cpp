@@ -8,7 +8,14 @@ using remote::FunctionId;
 
 [[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::point_at);
 
-glm::vec3 point_at(const Ray& ray, float distance) { return ask<&point_at>(FunctionId::point_at, ray, distance); }
+/// A box does not ask for what the handout says in these words: many a test of a triangle wants it before it says that
+/// there is no hit.
+glm::vec3 point_at(const Ray& ray, float distance) {
+    if (remote::Session::current().end() == remote::Session::End::box) {
+        return ray.origin + distance * ray.direction;
+    }
+    return ask<&point_at>(FunctionId::point_at, ray, distance);
+}
 
 ViewFrame view_frame(const Camera& camera) { return ask<&view_frame>(FunctionId::view_frame, camera); }
 
