@@ -1,5 +1,6 @@
 """What can go wrong, by exit code, and what the system says of files in words that a person can use."""
 
+import codecs
 import errno
 import os
 from pathlib import Path
@@ -82,8 +83,11 @@ def place_of(error: UnicodeDecodeError) -> str:
     return f"{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}"
 
 
+UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # as its files begin
+
+
 def _no_text(error: UnicodeDecodeError) -> str:
-    if error.object[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if error.object.startswith(UTF16_MARKS):
         return "it is text in UTF-16; save it in UTF-8"
     line, _, column = place_of(error).partition(":")
     return f"it is no text in UTF-8 (line {line}, column {column}); save it in UTF-8"

@@ -105,6 +105,11 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     return next((names[one] for one in get_close_matches(word.lstrip("-"), names, 1, _ALIKE)), None)
 
 
+def belongs_above(key: str) -> str:
+    """Of a key that stands in a table and is none of its own, as TOML takes what comes after a line in brackets."""
+    return f"`{key} = ...` belongs above the first line in brackets"
+
+
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """The same as the end of a sentence, or nothing."""
     name = nearest(word, known)

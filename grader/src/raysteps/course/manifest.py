@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
-from raysteps.common.text import clean, did_you_mean, join_and
+from raysteps.common.text import belongs_above, clean, did_you_mean, join_and
 from raysteps.course.project import Project
 
 if TYPE_CHECKING:  # what checks the types of documents takes long to load
@@ -217,7 +217,7 @@ def _known(key: str, form: _Form) -> str:
     if key == "images":
         return "; pictures are tables of their own, [[images]]"
     if key in _MANIFEST:
-        return f"; `{key} = ...` belongs above the first line in brackets"
+        return f"; {belongs_above(key)}"
     return did_you_mean(key, form) or f"; known are {', '.join(form)}"
 
 

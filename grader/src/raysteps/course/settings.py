@@ -12,7 +12,7 @@ from msgspec import Meta
 
 from raysteps.common.documents import Malformed, Text, convert, place_in_toml, read_toml
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import clean, did_you_mean
+from raysteps.common.text import belongs_above, clean, did_you_mean
 from raysteps.course.project import Project
 
 FILE = "course.toml"
@@ -115,7 +115,7 @@ def _refuse_wrong_keys(table: Mapping[str, object], text: str, path: Path) -> No
             for name, inner in value.items():
                 if name in _EXPECTED:
                     where = place_in_toml(text, [key, name])
-                    raise UsageError(f"{path}:{where}: {key}: `{name} = ...` belongs above the first line in brackets")
+                    raise UsageError(f"{path}:{where}: {key}: {belongs_above(name)}")
                 _refuse_wrong(key, inner, name, text, path)
         else:
             _refuse_wrong(key, value, None, text, path)

@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import Literal
 
 from raysteps.classroom.entries import folded
-from raysteps.common.errors import UsageError, place_of, reason
+from raysteps.common.errors import UTF16_MARKS, UsageError, place_of, reason
 from raysteps.common.text import clean, delimiter_of, number
 from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, spoken_name
 
 # A CSV file in which single cells can be replaced while every other byte stays as it is.
 
 _MAX_BYTES = 32 << 20
-_WIDE = (b"\xff\xfe", b"\xfe\xff", b"\x00\x00\xfe\xff")
 
 
 @dataclass(frozen=True)
@@ -119,7 +118,7 @@ def read_sheet(path: Path) -> Sheet:
         data = path.read_bytes()
     except OSError as error:
         raise UsageError(f"{path}: cannot be read: {reason(error)}") from error
-    if data.startswith(_WIDE) or b"\x00" in data:
+    if data.startswith(UTF16_MARKS) or b"\x00" in data:
         raise UsageError(f"{path}: is UTF-16 or no text at all; export or save it as CSV in UTF-8")
     try:
         text = data.decode("utf-8")

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from raysteps.common.errors import UsageError, reason
+from raysteps.common.errors import UTF16_MARKS, UsageError, reason
 from raysteps.common.text import count, join_and
 from raysteps.release.page_parts import Problem, folder_of_page, is_part, look_into
 from raysteps.release.secrets import Secrets, words_in
@@ -152,7 +152,7 @@ def pieces(place: str, data: bytes, depth: int = 0) -> Iterator[Piece]:
     """Everything that can be read."""
     if data.startswith(PNG):
         yield from _png(place, data)
-    elif data.startswith((b"\xff\xfe", b"\xfe\xff")):
+    elif data.startswith(UTF16_MARKS):
         yield Piece(place, data.decode("utf-16", "replace"))
     elif b"\0" not in data and not data.startswith(b"\x1f\x8b"):
         yield Piece(place, data.decode("utf-8", "replace"))
