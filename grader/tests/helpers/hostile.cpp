@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <sched.h>
+#include <sys/file.h>
+#include <sys/inotify.h>
 #include <sys/mman.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
@@ -258,16 +260,30 @@ int open_each(const Words& words) {
 /// Of a file of its own: with one of a file that others open, these would wait.
 long ask_for_a_lease() { return fcntl(open("/tmp/own", O_RDONLY | O_CREAT, 0600), F_SETLEASE, F_RDLCK); }
 
+/// Of a file that all tasks see: what comes of it another task can ask for.
+long lock_for_all() { return flock(open("/usr/lib", O_RDONLY), LOCK_SH | LOCK_NB); }
+long lock_a_part() {
+    struct flock part {};
+    part.l_type = F_RDLCK;
+    return fcntl(open("/usr/lib", O_RDONLY), F_SETLK, &part);
+}
+long watch_for_all() { return inotify_add_watch(inotify_init(), "/usr/lib", IN_OPEN); }
+long set_times() { return utimensat(AT_FDCWD, "/dev/null", nullptr, 0); }
+
 /// Which of the system's services answer that a ray tracer has no use for.
 int ask_system(const Words&) {
     const std::map<std::string, std::function<long()>> services{
         {"keys", [] { return syscall(SYS_keyctl, 0, -3, 1); }},
         {"lease", ask_for_a_lease},
+        {"lock", lock_for_all},
+        {"lock of a part", lock_a_part},
         {"memory", [] { return static_cast<long>(memfd_create("asked", 0)); }},
         {"namespaces", [] { return static_cast<long>(unshare(CLONE_NEWNET)); }},
         {"pair", [] { int pair[2]; return static_cast<long>(socketpair(AF_UNIX, SOCK_DGRAM, 0, pair)); }},
         {"socket", [] { return static_cast<long>(socket(AF_INET, SOCK_STREAM, 0)); }},
+        {"times", set_times},
         {"trace", [] { return ptrace(PTRACE_TRACEME, 0, nullptr, nullptr); }},
+        {"watch", watch_for_all},
     };
     for (const auto& [name, ask] : services) {
         if (ask() >= 0) {

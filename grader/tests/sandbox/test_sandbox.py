@@ -27,6 +27,7 @@ from sandboxes import (
 from watch_fakes import wait_for
 
 from raysteps.course.project import here
+from raysteps.sandbox.lockdown import syscall_filter
 from raysteps.sandbox.monitor import descendants
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.sandbox.task_dir import fresh_task_dir
@@ -273,6 +274,15 @@ def test_the_kernel_ends_a_submission_before_a_grader(sandbox: Sandbox, misbehav
 
 def test_memory_that_no_process_owns_is_refused(sandbox: Sandbox, misbehave: Misbehave) -> None:
     assert misbehave(sandbox, "hoard", "40").outcome.code == 1
+
+
+def test_no_task_tells_another_anything_by_the_files_of_the_machine(sandbox: Sandbox, misbehave: Misbehave) -> None:
+    """Not by locks, watches or the times of devices, which would stay; nor does it get what else it has no use for."""
+    if syscall_filter() is None:
+        pytest.skip("there is no filter for this machine")
+    before = Path("/dev/null").stat().st_mtime_ns
+    assert misbehave(sandbox, "ask").outcome.stdout == ""
+    assert Path("/dev/null").stat().st_mtime_ns == before
 
 
 def test_processes_are_limited(sandbox: Sandbox, misbehave: Misbehave) -> None:

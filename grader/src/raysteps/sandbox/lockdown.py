@@ -94,8 +94,9 @@ _X32 = 0x40000000
 _NEW_NAMESPACES = 0x7E020000  # CLONE_NEWNS, NEWCGROUP, NEWUTS, NEWIPC, NEWUSER, NEWPID, NEWNET
 
 # Sockets, also two that belong to each other: no network, and nobody who listens under a name. Memory without a file or
-# a process: no limit would count it. The rest: the kernel's rarely used corners and its log, other processes, keys that
-# outlive the task.
+# a process: no limit would count it. Locks, watches and times of files that the machine has once for all tasks: by them
+# one could tell another something, and the times of a device stay. What makes all wait for the disk. The rest: the
+# kernel's rarely used corners and its log, other processes, keys that outlive the task.
 _X86_64 = {
     "socket": 41, "socketpair": 53, "syslog": 103, "shmget": 29, "semget": 64, "msgget": 68, "mq_open": 240,
     "memfd_create": 319, "memfd_secret": 447,
@@ -103,6 +104,8 @@ _X86_64 = {
     "add_key": 248, "request_key": 249, "keyctl": 250, "bpf": 321, "perf_event_open": 298, "userfaultfd": 323,
     "io_uring_setup": 425, "open_by_handle_at": 304, "unshare": 272, "setns": 308, "mount": 165, "umount2": 166,
     "pivot_root": 155, "open_tree": 428, "move_mount": 429, "fsopen": 430,
+    "flock": 73, "inotify_init": 253, "inotify_init1": 294, "fanotify_init": 300, "utime": 132, "utimes": 235,
+    "futimesat": 261, "utimensat": 280, "sync": 162, "syncfs": 306,
 }  # fmt: skip
 _AARCH64 = {
     "socket": 198, "socketpair": 199, "syslog": 116, "shmget": 194, "semget": 190, "msgget": 186, "mq_open": 180,
@@ -111,9 +114,12 @@ _AARCH64 = {
     "pidfd_getfd": 438, "add_key": 217, "request_key": 218, "keyctl": 219, "bpf": 280, "perf_event_open": 241,
     "userfaultfd": 282, "io_uring_setup": 425, "open_by_handle_at": 265, "unshare": 97, "setns": 268, "mount": 40,
     "umount2": 39, "pivot_root": 41, "open_tree": 428, "move_mount": 429, "fsopen": 430,
+    "flock": 32, "inotify_init1": 26, "fanotify_init": 262, "utimensat": 88, "sync": 81, "syncfs": 267,
 }  # fmt: skip
 _CLONE3 = 435
-_SET_LEASE = 1024  # of fcntl: whoever else opens that file waits for up to 45 s
+# Of fcntl: copies of descriptors and their flags, and a copy that is closed on exec. Other commands lock a file, watch
+# it, leave hints on it, or make whoever else opens it wait.
+_FIRST_ON_FILES, _COPY_CLOSED_ON_EXEC = 5, 1030
 _KNOWN = {"x86_64": (0xC000003E, _X86_64, 56, 302, 72), "aarch64": (0xC00000B7, _AARCH64, 220, 261, 25)}
 
 
@@ -133,7 +139,8 @@ def syscall_filter() -> bytes | None:
         steps += [_step(_EQUAL, number, 0, 1), refuse]
     # Only a process's own limits, which go by the number 0: a limit can end another process.
     steps += [_step(_EQUAL, prlimit, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_EQUAL, 0, 1, 0), refuse]
-    steps += [_step(_EQUAL, fcntl, 0, 3), _step(_LOAD, _SECOND_ARGUMENT), _step(_EQUAL, _SET_LEASE, 0, 1), refuse]
+    steps += [_step(_EQUAL, fcntl, 0, 4), _step(_LOAD, _SECOND_ARGUMENT), _step(_AT_LEAST, _FIRST_ON_FILES, 0, 2)]
+    steps += [_step(_EQUAL, _COPY_CLOSED_ON_EXEC, 1, 0), refuse]
     # The C library falls back from clone3, whose flags a filter cannot see, to clone.
     steps += [_step(_EQUAL, _CLONE3, 0, 1), _step(_RETURN, _ERRNO | errno.ENOSYS)]
     steps += [_step(_EQUAL, clone, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_ANY_BIT, _NEW_NAMESPACES, 0, 1), refuse]
