@@ -13,6 +13,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.stubs import make_stub
 from raysteps.grading import pipeline
 from raysteps.grading.pipeline import HiddenStepGrader, grade_submission
+from raysteps.grading.scoring import still_missing
 from raysteps.grading.scoring import test_weights as weights_of
 from raysteps.judge.counterexamples import Examples, read_case
 from raysteps.judge.worker import JudgedCase
@@ -204,6 +205,15 @@ def test_a_test_that_needs_what_is_not_written_says_nothing_of_the_others(kit: B
     assert weights_of(step, tests, ["to_byte"]) == {"a": 0.5, "b": 0.25, "both": 0.25}
     only_both = {"both": ["tone_map", "to_byte"], "b": ["to_byte"]}
     assert weights_of(step, only_both, ["to_byte"]) == {"both": 0.75, "b": 0.25}, "it has no test of its own"
+
+
+def test_a_line_that_was_put_in_where_a_function_is_right_moves_no_weight() -> None:
+    tests = {"a": ["tone_map"], "b": ["to_byte"], "both": ["tone_map", "to_byte"]}
+    assert still_missing(["to_byte"], tests, {"b"}) == []
+    assert still_missing(["to_byte"], tests, {"a", "both"}) == ["to_byte"]
+    assert still_missing(["to_byte", "tone_map"], tests, {"b"}) == ["tone_map"]
+    assert still_missing(["to_byte"], {"both": tests["both"]}, {"both"}) == [], "it has no test of its own"
+    assert still_missing(["to_byte"], {"both": tests["both"]}, set()) == ["to_byte"]
 
 
 def test_such_a_box_holds_no_reference(kit: BuiltKit, tmp_path: Path) -> None:

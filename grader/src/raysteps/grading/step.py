@@ -14,7 +14,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.stubs import begun_source, unfinished_functions
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
-from raysteps.grading.scoring import max_points, test_weights
+from raysteps.grading.scoring import max_points, still_missing, test_weights
 from raysteps.grading.unit_tests import not_written_yet, run_tests
 from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
@@ -174,7 +174,8 @@ class StepGrader:
             self._work.say(f"{self.step.id}: {text}")
 
         self._result.tests = run_tests(self._work.sandbox, program, tests, self._limits, say)
-        weights = test_weights(self.step, tests, self._unfinished)
+        passed = {test.name for test in self._result.tests if test.passed}
+        weights = test_weights(self.step, tests, still_missing(self._unfinished, tests, passed))
         for test in self._result.tests:
             test.weight = weights[test.name]
         self._gallery.stopped_in(self._result.tests)
