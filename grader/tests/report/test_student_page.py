@@ -282,6 +282,10 @@ def test_results_of_an_older_kit_still_make_a_page(steps: list[Step], tmp_path: 
     assert "03 phong shading" in student_page(document, tmp_path, [])
 
 
+def test_results_without_a_step_make_a_page(steps: list[Step], tmp_path: Path) -> None:
+    assert "these results hold no step" in student_page(document_of([]), tmp_path, steps)
+
+
 def test_only_png_files_of_the_folder_are_shown(steps: list[Step], tmp_path: Path) -> None:
     folder = tmp_path / "results"
     document = document_of([wrong_step(steps[0], folder)])
