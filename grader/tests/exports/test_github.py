@@ -110,13 +110,47 @@ def test_legacy_status(steps: list[Step], tmp_path: Path, monkeypatch: pytest.Mo
         deliver_github(made, by_id(steps), None, tmp_path, tmp_path, legacy=True)
 
 
-def test_the_commit_says_when(tmp_path: Path) -> None:
-    assert abs(submitted_at(tmp_path) - datetime.now(UTC)) < timedelta(minutes=1)
+def _git(folder: Path, *words: str, stdin: str = "") -> str:
     environment = {**os.environ, "GIT_COMMITTER_DATE": "2026-09-30T10:00:00+02:00", "GIT_CONFIG_GLOBAL": "/dev/null"}
-    for words in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", "x"]):
-        who = ["-c", "user.name=a", "-c", "user.email=a@x"]
-        subprocess.run(["git", *who, *words], cwd=tmp_path, check=True, env=environment)
-    assert submitted_at(tmp_path) == datetime(2026, 9, 30, 8, 0, tzinfo=UTC)
+    command = ["git", "-c", "user.name=a", "-c", "user.email=a@x", *words]
+    return subprocess.run(
+        command, cwd=folder, check=True, env=environment, input=stdin, stdout=subprocess.PIPE, text=True
+    ).stdout.strip()
+
+
+_WHEN = datetime(2026, 9, 30, 8, 0, tzinfo=UTC)
+
+
+@pytest.mark.parametrize("kind", ["sha1", "sha256"])
+def test_the_commit_says_when(tmp_path: Path, kind: str) -> None:
+    assert abs(submitted_at(tmp_path) - datetime.now(UTC)) < timedelta(minutes=1)
+    _git(tmp_path, "init", "-q", f"--object-format={kind}")
+    _git(tmp_path, "commit", "-q", "--allow-empty", "-m", "x")
+    assert submitted_at(tmp_path) == _WHEN
+    _git(tmp_path, "pack-refs", "--all", "--prune")
+    _git(tmp_path, "repack", "-a", "-d", "-q")
+    assert submitted_at(tmp_path) == _WHEN, "packed"
+    _git(tmp_path, "checkout", "-q", "--detach")
+    assert submitted_at(tmp_path) == _WHEN, "no branch, as where a workflow has checked it out"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the program is a shell's")
+def test_a_repository_names_no_program_to_ask_when(tmp_path: Path) -> None:
+    """Git starts what a configuration names to look at a signature."""
+    _git(tmp_path, "init", "-q")
+    _git(tmp_path, "commit", "-q", "--allow-empty", "-m", "x")
+    head, _, words = _git(tmp_path, "cat-file", "commit", "HEAD").partition("\n\n")
+    signed = f"{head}\ngpgsig -----BEGIN PGP SIGNATURE-----\n \n -----END PGP SIGNATURE-----\n\n{words}\n"
+    _git(tmp_path, "update-ref", "HEAD", _git(tmp_path, "hash-object", "-w", "-t", "commit", "--stdin", stdin=signed))
+    program, mark = tmp_path / "verify", tmp_path / "started"
+    program.write_text(f"#!/bin/sh\ntouch '{mark}'\n", encoding="ascii")
+    program.chmod(0o755)
+    _git(tmp_path, "config", "log.showSignature", "true")
+    _git(tmp_path, "config", "gpg.program", str(program))
+    assert submitted_at(tmp_path) == _WHEN
+    assert not mark.exists()
+    _git(tmp_path, "show", "-s", "HEAD")
+    assert mark.exists(), "this is how it would be started"
 
 
 @pytest.mark.parametrize("legacy", [False, True])

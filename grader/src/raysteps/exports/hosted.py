@@ -1,6 +1,7 @@
 """The part of each autograder that runs on the other system's machine: grade, convert, write."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,7 +11,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason, reason_and_place
-from raysteps.common.files import write_out
+from raysteps.common.files import write_bytes, write_out
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import clean, number, shorten
 from raysteps.course.manifest import Step, choose, read_steps
@@ -31,6 +32,7 @@ from raysteps.exports.items import harmless_log, summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results
+from raysteps.sandbox.task import read_regular
 from raysteps.submission.load import load_submission, without_place
 
 # Grades one submission on the machine of another system.
@@ -102,6 +104,10 @@ def by_id(steps: Sequence[Step]) -> Mapping[str, Step]:
 
 
 _GIT_SECONDS = 30
+_MAX_GIT_FILE = 1 << 20
+_COMMIT, _SHORT = re.compile("[0-9a-f]{40}(?:[0-9a-f]{24})?"), 40
+_REFERENCE = re.compile(r"ref: (refs/\S+)")
+_MADE = re.compile(r"^committer .* ([0-9]{1,12}) [+-][0-9]{4}$", re.M)
 
 Deliver = Callable[[Results, Mapping[str, Step], Path], None]
 
@@ -160,23 +166,36 @@ def autolab(project: Project, handin: Path, options: Options) -> int:
     return GraderFault.exit_code if _grade(project, handin, options, deliver) else 0
 
 
+def _git_file(path: Path) -> str:
+    return (read_regular(path, _MAX_GIT_FILE) or b"").decode("utf-8", "replace").strip()
+
+
+def _checked_out(store: Path) -> str:
+    """The commit, as git's own files tell it; something else where they do not."""
+    head = _git_file(store / "HEAD")
+    named = _REFERENCE.fullmatch(head)
+    if named is None or ".." in head:
+        return head
+    packed = re.search(rf"^([0-9a-f]+) {re.escape(named[1])}$", _git_file(store / "packed-refs"), re.M)
+    return _git_file(store / named[1]) or (packed[1] if packed is not None else "")
+
+
 def submitted_at(repository: Path) -> datetime:
-    """When the commit that is checked out there was made; now, where git does not know. It is the student's clock, or
-    whatever the student told git."""
-    command: list[str | Path] = [
-        "git",
-        "-c",
-        "safe.directory=*",
-        "-C",
-        repository,
-        "show",
-        "-s",
-        "--format=%ct",
-        "HEAD",
-    ]
+    """When the commit that is checked out there was made; now, where nobody knows. It is the student's clock, or
+    whatever the student told git. Git reads it by a store of its own, because that of a student may name programs that
+    it starts."""
+    store = repository.absolute() / ".git"
+    commit = _checked_out(store)
+    if not _COMMIT.fullmatch(commit):
+        return datetime.now(UTC)
+    of_kind = ["--object-format=sha256"] if len(commit) > _SHORT else []
     try:
-        outcome = run(command, seconds=_GIT_SECONDS)
-        return datetime.fromtimestamp(int(outcome.stdout), UTC)
+        with tempfile.TemporaryDirectory(prefix="raysteps-") as place:
+            run(["git", "init", "--quiet", "--bare", "--template=", *of_kind, place], seconds=_GIT_SECONDS)
+            write_bytes(Path(place, "objects", "info", "alternates"), f"{store / 'objects'}\n".encode())
+            outcome = run(["git", f"--git-dir={place}", "cat-file", "commit", commit], seconds=_GIT_SECONDS)
+        made = _MADE.search(outcome.stdout.partition("\n\n")[0])
+        return datetime.fromtimestamp(int(made[1]), UTC) if made is not None else datetime.now(UTC)
     except (OSError, ValueError, OverflowError):
         return datetime.now(UTC)
 
