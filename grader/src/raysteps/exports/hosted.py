@@ -192,7 +192,7 @@ def submitted_at(repository: Path) -> datetime:
     try:
         with tempfile.TemporaryDirectory(prefix="raysteps-") as place:
             run(["git", "init", "--quiet", "--bare", "--template=", *of_kind, place], seconds=_GIT_SECONDS)
-            write_bytes(Path(place, "objects", "info", "alternates"), f"{store / 'objects'}\n".encode())
+            write_bytes(Path(place, "objects", "info", "alternates"), f"{(store / 'objects').as_posix()}\n".encode())
             outcome = run(["git", f"--git-dir={place}", "cat-file", "commit", commit], seconds=_GIT_SECONDS)
         made = _MADE.search(outcome.stdout.partition("\n\n")[0])
         return datetime.fromtimestamp(int(made[1]), UTC) if made is not None else datetime.now(UTC)
