@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 import tempfile
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -38,7 +39,7 @@ from raysteps.images.noise import (
 )
 from raysteps.results.model import Termination, Work
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, TaskResult, Word
-from raysteps.toolchain.compile import Program
+from raysteps.toolchain.compile import Program, own_name
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 # The reference's pictures as files of a students' kit, reference/NN-name/CASE.png, and what is known of them.
@@ -341,9 +342,18 @@ def not_in_time(what: str, seconds: float, *, sooner: bool) -> str:
     return f"{what} was stopped after {in_seconds(seconds)}. {ENDLESS}"
 
 
+# As the loader says it of a function that is no C++, which the linker leaves to the loader; a source can hide it there.
+_NOWHERE = re.compile(r"symbol lookup error: \S+: undefined symbol: (\S+)$")
+
+
 def exit_words(outcome: Outcome) -> str:
     """The exit code of a program that gave up, and its last words."""
-    said = shorten(printable(outcome.stderr.strip().rpartition("\n")[2]), 200)
+    last = outcome.stderr.strip().rpartition("\n")[2]
+    nowhere = _NOWHERE.search(last)
+    if nowhere is not None:
+        name = own_name(nowhere[1]) or nowhere[1]
+        last = f"the program asks for {shorten(name, 100)}, which is defined nowhere that it could see"
+    said = shorten(printable(last), 200)
     return f"exit code {outcome.code}" + (f": {said}" if said else "")
 
 
