@@ -24,6 +24,7 @@ from raysteps.report.class_overview import (
     groups,
     histogram,
     marks,
+    marks_of,
     share_bars,
     span,
     step_figures,
@@ -34,6 +35,7 @@ from raysteps.report.class_page import aliases, class_page, table_rows
 from raysteps.results.class_model import ClassResults
 
 _FIRST, _SECOND = STEPS[0]["id"], STEPS[1]["id"]
+_LATE = {"days": 1, "percent": 10, "points": 9, "deadline": "d", "words": "w"}
 
 
 def test_the_figures_of_a_step_leave_out_what_was_not_graded() -> None:
@@ -152,14 +154,13 @@ def test_what_could_not_be_read_is_no_step_that_nobody_began() -> None:
 
 
 def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:
-    late = {"days": 1, "percent": 10, "points": 9, "deadline": "d", "words": "w"}
     facts = document(
         [
             submission("ann"),
             missing("bob", "unreadable", points=0, final=0, not_taken=["It is a RAR archive."]),
             missing("cid", "fault", fault="the moon\nis in the way"),
             submission("cud", not_taken=[f"{_FIRST}: camera_rays.cpp is larger than 1 MB and was not taken."]),
-            submission("dot", late=late, submitted_from="files", submitted_at="2026-11-21T01:00:00+00:00"),
+            submission("dot", late=_LATE, submitted_from="files", submitted_at="2026-11-21T01:00:00+00:00"),
         ],
         students_without_submission=[{**student("Eve", "5"), "note": ""}],
         gone=["fay"],
@@ -181,6 +182,29 @@ def test_what_needs_a_look_stands_apart_and_is_marked_in_the_table() -> None:
         3: ["file not read"],
         4: ["late by file time"],
     }
+
+
+def test_the_marks_of_one_are_those_that_it_has_in_the_class() -> None:
+    open_ = {"requests": 1, "open_requests": 1, "comments": 0, "read": False}
+    again = {"automatic": 5, "changes": ["c"], "look_again": ["l"], **open_}
+    facts = document(
+        [
+            submission("ann", students=[student("Ann Lee", "4711")]),
+            missing("bob", "unreadable", points=0, final=0, not_taken=["It is a RAR archive."]),
+            missing("cid", "fault", fault="the moon"),
+            submission("cud", not_taken=[f"{_FIRST}: camera_rays.cpp is a folder, not a file."], outdated=True),
+            submission("dot", submitted_from="files", late={**_LATE, "days": 1}),
+            submission("eve", submitted_from="files", late={**_LATE, "days": 0}),
+            submission("fay", submitted_from="roster", late={**_LATE, "days": 1}),
+            submission("gus", review=again),
+            missing("hal", "not-graded"),
+        ],
+        submissions_without_student=["bob", "cid", "cud", "dot", "eve", "fay", "gus", "hal"],
+        outdated=["cud"],
+    )
+    in_class = marks(groups(facts))
+    assert [marks_of(one, has_roster=True) for one in facts.submissions] == [in_class.get(row, []) for row in range(9)]
+    assert marks_of(facts.submissions[5], has_roster=False) == []
 
 
 def test_an_alias_stays_the_same_when_the_order_of_the_class_changes() -> None:

@@ -54,6 +54,14 @@ def test_files_in_and_out(tmp_path: Path, grades: Path, capsys: pytest.CaptureFi
     assert "Written:" in capsys.readouterr().out
 
 
+def test_what_was_said_goes_into_no_file_of_another_kind(
+    tmp_path: Path, grades: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["desk", str(grades), "--export", str(tmp_path / "said.xlsx")]) == 2
+    assert "said.xlsx: expected a name that ends in .json" in " ".join(capsys.readouterr().err.split())
+    assert not (tmp_path / "said.xlsx").exists()
+
+
 def test_while_something_else_is_at_work_the_way_to_write_later_is_named(
     tmp_path: Path, grades: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

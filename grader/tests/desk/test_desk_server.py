@@ -188,6 +188,7 @@ def test_a_name_may_have_any_letters(tmp_path: Path) -> None:
         ({**_COMMENT, "step": "02-intersection"}, "line 2: the code of step 02 has 0 lines"),
         ({**_COMMENT, "text": ""}, "expected a comment"),
         ({"kind": "points", "author": "Ada", "text": "x", "step": _STEP, "points": 11}, "at most 10"),
+        ({"kind": "points", "author": "Ada", "text": "x", "step": _STEP, "points": -3}, "01 has 0 to 10, found -3"),
         ({**_COMMENT, "kind": "points", "line": 0, "part": "hidden", "points": 9}, "hidden has at"),
         ({"kind": "points", "author": "Ada", "text": "x", "step": "10-fog", "points": 1}, "10-fog was not graded"),
         ({"kind": "points", "author": "Ada", "text": "", "step": _STEP, "points": 1}, "expected a reason"),

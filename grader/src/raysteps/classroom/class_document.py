@@ -81,6 +81,7 @@ class Standings:
         self.policy = parse_late_policy(text, "the late policy of the run") if text else None
         self._runs = {row["number"]: row for row in _last_runs(self.all_runs)}
         people = self._query("SELECT id, email FROM students").fetchall()
+        self.has_roster = bool(people)
         self._resubmissions = Resubmissions(database.connection)
         self._left_out = database.left_out() if has_table(database.connection, "left_out") else set()
         self._people = {folded(word) for row in people for word in (row["id"], row["email"]) if word}
@@ -227,7 +228,6 @@ class _Report:
             "(SELECT student FROM handed_in GROUP BY student HAVING count(*) > 1) "
             "ORDER BY name_order(id), name_order(name), email"
         )
-        students = self._query("SELECT count(*) AS amount FROM students").fetchone()["amount"]
         finals = [one.final for one in submissions if one.status == "graded" and one.final is not None]
         return ClassResults(
             schema="raysteps/class/v1",
@@ -239,7 +239,7 @@ class _Report:
             submissions=submissions,
             students_without_submission=[NotedStudent(**row) for row in absent],
             students_with_several=[NotedStudent(**row) for row in several],
-            submissions_without_student=[one.name for one in submissions if students and not one.students],
+            submissions_without_student=[one.name for one in submissions if standings.has_roster and not one.students],
             not_graded=[one.name for one in submissions if one.status == "not-graded"],
             faults=[one.name for one in submissions if one.status == "fault"],
             unreadable=[one.name for one in submissions if one.status == "unreadable"],

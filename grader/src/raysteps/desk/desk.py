@@ -28,6 +28,7 @@ from raysteps.common.text import clean, number, plain_letters, printable
 from raysteps.course.manifest import Step
 from raysteps.desk.file_writer import FileWriter, check_folder
 from raysteps.desk.said import Said, Scribe
+from raysteps.report.class_overview import marks_of
 from raysteps.report.class_page import STATUSES, found_by, step_cell, who_and_more
 from raysteps.report.page import PictureData, picture_of, render_page
 from raysteps.report.student import ShownImage, parts_of, parts_that_count, step_view
@@ -46,7 +47,7 @@ View = dict[str, Any]
 # The table.
 
 
-def _row(one: GradedSubmission, steps: Sequence[str], mistakes: Mapping[tuple[str, str], int]) -> Row:
+def _row(one: GradedSubmission, steps: Sequence[str], mistakes: Mapping[tuple[str, str], int], has_roster: bool) -> Row:
     who, more = who_and_more(one)
     review = one.review
     found = [one.steps.get(step) for step in steps]
@@ -67,7 +68,7 @@ def _row(one: GradedSubmission, steps: Sequence[str], mistakes: Mapping[tuple[st
             if (step, title) in mistakes
         ],
         "changed": review.changes,
-        "look": [*review.look_again, *filter(None, [one.fault, one.note])],
+        "look": marks_of(one, has_roster),
         "open": review.open_requests,
         "comments": review.comments,
         "read": review.read,
@@ -184,7 +185,8 @@ class Desk:
         for step, titles in one.mistakes.items():
             for title in titles:
                 self._mistakes.setdefault((step, title), len(self._mistakes))
-        row = _row(one, [step.id for step in self._current().steps], self._mistakes)
+        standings = self._current()
+        row = _row(one, [step.id for step in standings.steps], self._mistakes, standings.has_roster)
         self._rows[one.name] = (stamp, row)
         return row
 
@@ -242,7 +244,8 @@ class Desk:
                 "late": one.late.words if one.late is not None else "",
                 "submitted": one.submitted_at,
                 "fault": clean(one.fault),
-                "note": clean(one.note),
+                "notes": [clean(words) for words in one.why_unread],
+                "look_again": [clean(words) for words in one.review.look_again],
                 "threads": [self._placed(thread, sources) for thread in threads(annotations)],
                 "steps": [],
                 "files": self.files(),

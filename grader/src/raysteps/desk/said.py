@@ -131,6 +131,11 @@ class Scribe:
             if part is None:
                 raise UsageError(f"part: step {said.step[:2]} has no points for {said.part}")
             most, automatic = part.most, part.earned
+        if said.points < 0 and not said.withdrawn:
+            raise UsageError(
+                f"points: {item_words(said.step, said.part)} has 0 to {number(most)}, found {number(said.points)}; "
+                "more can be taken away from the submission as a whole"
+            )
         if said.points > most and not said.withdrawn:
             raise UsageError(
                 f"points: {item_words(said.step, said.part)} has at most {number(most)}; "
@@ -157,6 +162,8 @@ class AnnotationFile:
 
 def export_file(database: ClassDatabase, path: Path) -> int:
     """All rows as JSON; into a file that ends in .csv what holds now. Gives their number."""
+    if path.suffix.lower() not in (".json", ".csv"):
+        raise UsageError(f"{path}: expected a name that ends in .json, for all of it, or in .csv, for a table")
     rows = all_annotations(database)
     if path.suffix.lower() == ".csv":
         table = list(_csv_rows(database, rows))

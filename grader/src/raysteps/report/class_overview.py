@@ -251,6 +251,14 @@ def _points(value: float | None) -> str:
     return "no points" if value is None else tenths(value)
 
 
+def _has_unread_files(one: GradedSubmission) -> bool:
+    return one.status == "graded" and bool(one.not_taken)
+
+
+def _is_late_by_file(one: GradedSubmission) -> bool:
+    return one.submitted_from == "files" and one.late is not None and one.late.days > 0
+
+
 class _Finder:
     def __init__(self, document: ClassResults) -> None:
         self._document = document
@@ -270,14 +278,14 @@ class _Finder:
         return [self._item(name, one.why_unread) for name, one in self._of(self._document.unreadable)]
 
     def not_taken(self) -> list[Item]:
-        found = [one for one in self._document.submissions if one.status == "graded"]
-        return [self._item(one.name, one.not_taken) for one in found if one.not_taken]
+        found = [one for one in self._document.submissions if _has_unread_files(one)]
+        return [self._item(one.name, one.not_taken) for one in found]
 
     def late_by_file(self) -> list[Item]:
         return [
             self._item(name, [f"{one.submitted_at}, {count(one.late.days, 'day')} begun"])
             for name, (_, one) in self._rows.items()
-            if one.submitted_from == "files" and one.late is not None and one.late.days
+            if one.late is not None and _is_late_by_file(one)
         ]
 
     def strangers(self) -> list[Item]:
@@ -387,6 +395,22 @@ def marks(found: Sequence[Group]) -> dict[int, list[str]]:
             if group.mark and item.row is not None:
                 named.setdefault(item.row, []).append(group.mark)
     return named
+
+
+def marks_of(one: GradedSubmission, has_roster: bool) -> list[str]:
+    """The marks of one submission, for who does not have the others at hand: those that `marks` gives it."""
+    found = {
+        "fault": one.status == "fault",
+        "unreadable": one.status == "unreadable",
+        "file not read": _has_unread_files(one),
+        "not graded": one.status == "not-graded",
+        "earlier result": one.outdated,
+        "late by file time": _is_late_by_file(one),
+        "look again": bool(one.review.look_again),
+        "open request": one.review.open_requests > 0,
+        "nobody's": has_roster and not one.students,
+    }
+    return [mark for mark, holds in found.items() if holds]
 
 
 # Which known mistakes are common in a class, step by step, and who made them.

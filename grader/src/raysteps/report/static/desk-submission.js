@@ -65,7 +65,7 @@ class DeskSubmission {
   }
 
   head() {
-    const { row, late, submitted } = this.view;
+    const { row, late, submitted, fault, notes, look_again: again } = this.view;
     const title = make("h2", { id: "submission-title", tabindex: -1 }, row.who);
     const more = [row.more, this.desk.place(row.name), submitted && `handed in ${submitted.replace("T", " ")}`];
     const points = make("p", { class: "desk-points" }, make("strong", {}, `${row.points || "no"} points`));
@@ -89,7 +89,7 @@ class DeskSubmission {
     });
     const read = act("Read", "r", () => this.toggleRead(), { "aria-pressed": String(row.read), id: "read" });
     read.append(make("kbd", { "aria-hidden": "true" }, "r"));
-    const said = [this.view.fault, this.view.note, late].filter(Boolean);
+    const said = [fault, ...notes, late].filter(Boolean);
     return make(
       "header",
       { class: "desk-head" },
@@ -97,7 +97,7 @@ class DeskSubmission {
       points,
       make("div", { class: "desk-buttons" }, ...buttons, read),
       ...said.map((text) => make("p", { class: "muted small desk-wide" }, text)),
-      ...row.look.map((text) => make("p", { class: "desk-look desk-wide" }, `Look again: ${text}`)),
+      ...again.map((text) => make("p", { class: "desk-look desk-wide" }, `Look again: ${text}`)),
     );
   }
 

@@ -21,7 +21,7 @@ const deskKeys = [
 const counted = (number, noun) => `${number} ${noun}${number === 1 ? "" : "s"}`;
 const deskMarks = [
   ["open", ({ open }) => open && counted(open, "open request"), "bad"],
-  ["look", ({ look }) => look.length && "look", "bad"],
+  ["look", ({ look }) => look.filter((mark) => mark !== "open request").join(", "), "bad"],
   ["changed", ({ changed }) => changed.length && "changed", ""],
   ["comments", ({ comments }) => comments && counted(comments, "comment"), ""],
 ];
