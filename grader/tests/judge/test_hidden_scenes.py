@@ -92,3 +92,12 @@ def test_a_picture_without_a_twin_is_named(project: Project, steps: list[Step]) 
     said = f"must list a twin for each .*: {', '.join(names)}, mine; found {', '.join(names)}"
     with pytest.raises(GraderFault, match=said):
         read_plan(project, more)
+
+
+def test_a_scene_that_is_not_there_is_told_with_its_line_in_the_manifest(project: Project, steps: list[Step]) -> None:
+    step = steps[3]
+    images = (step.images[0], replace(step.images[1], scene="scenes/lessons/nope.nff"), *step.images[2:])
+    lines = (project.steps / step.id / "step.toml").read_text().splitlines()
+    line = [at for at, text in enumerate(lines, start=1) if text.startswith("scene = ")][1]
+    with pytest.raises(GraderFault, match=rf"step.toml:{line}:1: scene: scenes/lessons/nope.nff is not there"):
+        read_plan(project, replace(step, images=images))

@@ -287,6 +287,14 @@ def _fault(path: Path, keys: Sequence[str], words: str) -> GraderFault:
     return GraderFault(f"{path}:{place_in_toml(path.read_text('utf-8-sig'), keys)}: {words}")
 
 
+def refuse_absent_scenes(step: Step, project: Project) -> None:
+    """A scene that is not there is misspelled in the manifest: its line is the one to mend."""
+    for at, image in enumerate(step.images):
+        if not (project.root / image.scene).is_file():
+            words = f"scene: {image.scene} is not there; expected a file, as seen from the kit's folder"
+            raise _fault(project.steps / step.id / "step.toml", ["images", str(at), "scene"], words)
+
+
 def read_step(path: Path) -> Step:
     """Reads one manifest; a bad one is the kit's fault."""
     try:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
+from raysteps.common.text import join_and
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 
@@ -160,7 +161,8 @@ def make_stub(solution: str, step: Step, keep: Collection[str] = ()) -> str:
     if region is not None:
         raise GraderFault(f"{where}: a region has no END SOLUTION")
     if sorted(names) != sorted(step.functions):
-        raise GraderFault(f"{where}: its regions are {names}, but step.toml lists {list(step.functions)}")
+        found, listed = join_and(names or ["none"]), join_and(step.functions)
+        raise GraderFault(f"{where}: its regions are {found}, but [functions] of step.toml has {listed}")
     return "\n".join(out).rstrip() + "\n"
 
 

@@ -214,7 +214,7 @@ def _drawn(kit: BuiltKit, scene: Path, args: tuple[str, ...], *, estimates: bool
         except (PictureError, OSError) as error:
             said = outcome.stderr.strip() or str(error)
             raise GraderFault(
-                f"the reference cannot render {scene.name}, with no other file beside it: {said}"
+                f"the reference cannot render {scene.name} with {' '.join(args)}, with no other file beside it: {said}"
             ) from error
         for file, data in zip(beside, told, strict=True):
             write_bytes(file, data)

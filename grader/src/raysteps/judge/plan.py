@@ -11,7 +11,7 @@ from msgspec import Meta
 from raysteps.common.documents import Text, parse_table, place_in_toml, read_text
 from raysteps.common.errors import GraderFault
 from raysteps.common.text import did_you_mean
-from raysteps.course.manifest import Step
+from raysteps.course.manifest import Step, refuse_absent_scenes
 from raysteps.course.project import Project
 from raysteps.judge.functions import AGAIN, functions_of
 
@@ -183,4 +183,6 @@ def read_plan(project: Project, step: Step) -> Plan | None:
     path = project.solutions / step.id / "cases.toml"
     if not path.is_file():
         return None
-    return _parse(read_text(path), step, path)
+    plan = _parse(read_text(path), step, path)
+    refuse_absent_scenes(step, project)
+    return plan
