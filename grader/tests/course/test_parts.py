@@ -112,6 +112,15 @@ def test_what_is_left_out_stays_out_of_its_part(kit: Project, settle: Callable[[
     _add(kit, "08-refraction", "left_out = true")
     settle("parts = [1, 2]")
     assert _numbers(read_steps(kit)) == "12345679"
+    said = r"^step 08-refraction is left out: steps/08-refraction/step.toml says `left_out = true`$"
+    for name in ("8", "08-refraction", "1-8"):
+        with pytest.raises(UsageError, match=said):
+            chosen_steps(kit, [name])
+    place = settle('parts = [1, 2]\nsteps = "1-8"')
+    with pytest.raises(UsageError, match=re.escape(f"{place}:2:1: steps: step 08-refraction is left out")):
+        course_steps(kit)
+    with pytest.raises(UsageError, match=r"there is no step '12'\. The steps are [^;]*09-bvh$"):
+        chosen_steps(kit, ["12"])
 
 
 @pytest.mark.parametrize(

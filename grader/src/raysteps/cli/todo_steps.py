@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from raysteps.common.errors import UsageError
 from raysteps.common.text import join_and
-from raysteps.course.manifest import Step, kit_steps, of_another_part, of_other_parts, read_steps, steps_words
+from raysteps.course.manifest import Step, kit_steps, outside_course, read_steps, steps_words, why_outside
 from raysteps.course.project import Project
 from raysteps.course.stubs import unfinished_functions
 
@@ -60,9 +60,9 @@ def wanted_step(project: Project, words: Sequence[str]) -> int:
         return usual_step(project)
     word = last_value(words, "--step") or ""
     steps = read_steps(project)
-    for other in of_other_parts(project):
+    for other in outside_course(project):
         if word in (other.number, str(other.index)):
-            raise UsageError(f"--step: {of_another_part(steps, other)}")
+            raise UsageError(f"--step: {why_outside(steps, other)}")
     if not re.fullmatch("[0-9]{1,2}", word) or int(word) not in [step.index for step in kit_steps(project)]:
         raise UsageError(f"--step: expected the number of a step, {' or '.join(steps_words(steps))}, found '{word}'")
     return int(word)

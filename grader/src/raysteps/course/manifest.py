@@ -404,8 +404,10 @@ def taken_in(steps: Sequence[Step], part: int) -> str:
     return f"`parts = {sorted({part, *(step.part for step in steps)})}` in course.toml takes it in"
 
 
-def of_another_part(steps: Sequence[Step], other: Step) -> str:
+def why_outside(steps: Sequence[Step], other: Step) -> str:
     """Why nobody can ask for that one in a course that has these steps."""
+    if other.left_out:
+        return f"step {other.id} is left out: steps/{other.id}/step.toml says `left_out = true`"
     return f"step {other.id} belongs to part {other.part}; {taken_in(steps, other.part)}"
 
 
@@ -413,6 +415,11 @@ def of_other_parts(project: Project) -> list[Step]:
     """Steps of the kit that belong to no part of the course."""
     steps = read_steps(project)
     return [step for step in kit_steps(project) if step not in steps]
+
+
+def outside_course(project: Project) -> list[Step]:
+    """Steps of the kit that nobody can ask for: those of other parts, and those that are left out."""
+    return [*of_other_parts(project), *(step for step in read_all_steps(project) if step.left_out)]
 
 
 def up_to(step: Step, steps: Sequence[Step]) -> list[Step]:
@@ -438,9 +445,10 @@ def _one(steps: list[Step], name: str, others: Sequence[Step]) -> Step:
     path = _IN_STEPS.fullmatch(name)
     found = [step for step in (*steps, *others) if (path and step.id == path[1]) or number == step.number]
     if found and found[0] in others:
-        raise UsageError(of_another_part(steps, found[0]))
+        raise UsageError(why_outside(steps, found[0]))
     if not found:
         meant = did_you_mean(name, [step.id for step in steps]) or "."
+        others = [other for other in others if not other.left_out]
         parts = sorted({other.part for other in others})
         more = "".join(f"; part {part} has {_ids(others, part)}, and {taken_in(steps, part)}" for part in parts)
         raise UsageError(f"there is no step '{name}'{meant} The steps are {', '.join(step.id for step in steps)}{more}")
@@ -535,19 +543,19 @@ def course_steps(project: Project) -> list[Step]:
     steps, course = read_steps(project), _course(project)
     if course is None or not course.steps:
         return steps
-    others = of_other_parts(project)
+    others = outside_course(project)
     chosen = [step for names in course.steps for step in _by_course(steps, course, "steps", names, others)]
     return [step for step in steps if step in chosen]
 
 
 def chosen_steps(project: Project, names: Sequence[str]) -> list[Step]:
     """Those that were named, else those of the course."""
-    return choose(read_steps(project), names, of_other_parts(project)) if names else course_steps(project)
+    return choose(read_steps(project), names, outside_course(project)) if names else course_steps(project)
 
 
 def chosen_step(project: Project, name: str) -> Step:
     """The one that was named."""
-    return choose_one(read_steps(project), name, of_other_parts(project))
+    return choose_one(read_steps(project), name, outside_course(project))
 
 
 def dated_steps(project: Project) -> list[tuple[Step, date]]:
@@ -555,7 +563,7 @@ def dated_steps(project: Project) -> list[tuple[Step, date]]:
     steps, course = read_steps(project), _course(project)
     if course is None:
         return []
-    others = of_other_parts(project)
+    others = outside_course(project)
     told = [(names, step) for names in course.dates for step in _by_course(steps, course, "steps", names, others)]
     _each_once(course, "steps", told)
     return [(step, course.dates[names]) for names, step in told]
