@@ -86,6 +86,12 @@ def test_canvas_changes_grades_only(case: Case, capsys: pytest.CaptureFixture[st
     assert "Ann" not in said
 
 
+def test_a_table_that_is_no_gradebook_is_told_as_such(case: Case) -> None:
+    for named in ((), ("--assignment", "12")):
+        with pytest.raises(UsageError, match=r"has no column of an assignment, .*; expected a gradebook as Canvas"):
+            case.run("canvas", "Student,ID\nAnn,1\n", *named)
+
+
 @pytest.mark.parametrize("wanted", ["12", "Raysteps", "Raysteps (12)"])
 def test_an_assignment_has_three_names(case: Case, wanted: str) -> None:
     case.results("one,101,,,50,100,,\n")

@@ -186,6 +186,11 @@ def _filled(row: Row, columns: Mapping[str, int], *names: str) -> frozenset[str]
 
 def _assignment_column(sheet: Sheet, headers: Mapping[str, int], wanted: str | None) -> int:
     names = {name: at for name, at in headers.items() if _ASSIGNMENT.search(name)}
+    if not names:
+        raise UsageError(
+            f"{sheet.path}: has no column of an assignment, such as 'Ray tracer (4711)'; expected a gradebook as "
+            "Canvas exports it"
+        )
     if wanted is not None:
         chosen = {
             name: at
@@ -196,7 +201,7 @@ def _assignment_column(sheet: Sheet, headers: Mapping[str, int], wanted: str | N
         chosen = names
     if len(chosen) == 1:
         return next(iter(chosen.values()))
-    known = "; ".join(names) or "none"
+    known = "; ".join(names)
     if wanted is not None:
         problem = "is not" if not chosen else "is more than once"
         raise UsageError(f"{sheet.path}: the assignment '{wanted}' {problem} among its columns: {known}")
