@@ -21,7 +21,8 @@ void ask_cosine_pdf(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_scatter_diffuse(TokenReader& words, TokenWriter& answer) {
-    const HitRecord hit = read_hit(words);
+    HitRecord hit = read_hit(words);
+    hit.fill.emission = words.vector();
     for (const auto& sample : draw_often(words, [&](const glm::vec2& u) { return scatter_diffuse(hit, u); })) {
         write_sample(answer, sample);
     }

@@ -35,6 +35,7 @@ struct Stop {
     bool specular = false;
     bool scatters = true;
     bool front_face = true;
+    glm::vec3 direction{-1.0F, 0.0F, 0.0F};
 };
 
 /// A path from stop to stop, all of them a unit apart along x. Behind the last one there is nothing, or the last one
@@ -75,10 +76,8 @@ public:
         if (!now_.scatters) {
             return std::nullopt;
         }
-        return ScatterSample{.direction = glm::vec3(-1.0F, 0.0F, 0.0F),
-                             .weight = now_.weight,
-                             .pdf = 1.0F / k_pi,
-                             .specular = now_.specular};
+        return ScatterSample{
+            .direction = now_.direction, .weight = now_.weight, .pdf = 1.0F / k_pi, .specular = now_.specular};
     }
 
     [[nodiscard]] Color background() const override { return background_; }
@@ -279,6 +278,10 @@ TEST_CASE("scatter_diffuse: nothing from a black surface", "[13-path-tracing][sc
     INFO("one channel is enough, and a little light is light");
     CHECK(scatter_diffuse(diffuse_hit(k_normals[0], Color(0.0F, 0.0F, 0.3F)), u).has_value());
     CHECK(scatter_diffuse(diffuse_hit(k_normals[0], Color(1e-4F)), u).has_value());
+    INFO("a lamp sends light on like any other surface");
+    HitRecord lamp = diffuse_hit(k_normals[0], k_white, 0.8F);
+    lamp.fill.emission = Color(5.0F);
+    CHECK(scatter_diffuse(lamp, u).has_value());
 }
 
 TEST_CASE("scatter_diffuse: the handout's worked example", "[13-path-tracing][scatter_diffuse]") {
@@ -295,6 +298,7 @@ TEST_CASE("survival_probability: the largest channel, at most 0.95", "[13-path-t
     CHECK(survival_probability(Color(0.001F)) == about(0.001, 1e-5));
     INFO("no path is certain to go on");
     CHECK(survival_probability(k_white) == about(0.95));
+    CHECK(survival_probability(Color(0.2F, 0.97F, 0.5F)) == about(0.95));
     CHECK(survival_probability(Color(3.0F, 0.2F, 0.2F)) == about(0.95));
     CHECK(survival_probability(k_black) == 0.0F);
 }
@@ -338,11 +342,14 @@ TEST_CASE("path_light: no light is cut off or lost", "[13-path-tracing][path_lig
 }
 
 TEST_CASE("path_light: the next ray starts off the surface", "[13-path-tracing][path_light]") {
-    PathOfStops path({Stop{}, Stop{.scatters = false}});
-    static_cast<void>(light_along(path));
-    REQUIRE(path.origins.size() == 2);
-    INFO("by scattered_ray: 0.001 towards the normal");
-    CHECK_THAT(path.origins[1], IsNear(glm::vec3(0.999F, 0.0F, 0.0F), 1e-5F));
+    for (const glm::vec3& direction : {glm::vec3(-1.0F, 0.0F, 0.0F), glm::vec3(-0.6F, 0.8F, 0.0F)}) {
+        PathOfStops path({Stop{.direction = direction}, Stop{.scatters = false}});
+        static_cast<void>(light_along(path));
+        REQUIRE(path.origins.size() == 2);
+        CAPTURE(text(direction));
+        INFO("by scattered_ray: 0.001 towards the normal, whichever way it goes on");
+        CHECK_THAT(path.origins[1], IsNear(glm::vec3(0.999F, 0.0F, 0.0F), 1e-5F));
+    }
 }
 
 TEST_CASE("path_light: behind a diffuse bounce a lamp is not counted again", "[13-path-tracing][path_light]") {
@@ -352,6 +359,9 @@ TEST_CASE("path_light: behind a diffuse bounce a lamp is not counted again", "[1
     INFO("behind a mirror nothing else brings it");
     CHECK_THAT(light_along({Stop{.specular = true}, Stop{.emission = Color(10.0F), .scatters = false}}),
                IsNear(Color(5.0F)));
+    INFO("a white wall is no mirror");
+    CHECK_THAT(light_along({Stop{.weight = k_white}, Stop{.emission = Color(10.0F), .scatters = false}}),
+               IsNear(k_black));
     INFO("it is the last bounce that matters");
     CHECK_THAT(light_along({Stop{.specular = true}, Stop{}, Stop{.emission = Color(10.0F), .scatters = false}}),
                IsNear(k_black));

@@ -32,9 +32,9 @@ def chi_square_tail(value: float, degrees: int) -> float:
     return min(1.0, tail)
 
 
-def has_mean(numbers: Numbers, mean: float, deviation: float) -> bool:
+def has_mean(numbers: Numbers, mean: float, deviation: float, most: float = DEVIATIONS) -> bool:
     """Whether the mean of independent numbers with that standard deviation is right (z-test)."""
-    return abs(float(numbers.mean()) - mean) <= DEVIATIONS * deviation / math.sqrt(len(numbers))
+    return abs(float(numbers.mean()) - mean) <= most * deviation / math.sqrt(len(numbers))
 
 
 def is_uniform(shares: Numbers, bins: int) -> bool:

@@ -39,6 +39,7 @@ from raysteps.judge.protocol import (
     TokenReader,
     Vec,
     Whole,
+    f32,
     rounded,
     vec_of,
     vector_words,
@@ -47,6 +48,9 @@ from raysteps.judge.protocol import (
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import MAX_ASKED, MisScript, PathHit, PathScript, Scatter
 from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform, off, uneven
+
+_BLACK: Vector = (0.0, 0.0, 0.0)
+WHITE: Vector = (1.0, 1.0, 1.0)
 
 # Directions with the density cos / pi. Every map from the unit square is right that gives it: so no direction is
 # compared with the reference's. Seen from above the tip of such a direction lies anywhere in the unit disk, all places
@@ -65,13 +69,43 @@ def _shares(directions: Numbers, normal: Vector) -> Numbers:
     return np.stack([np.minimum(x * x + y * y, 1.0), np.arctan2(y, x) / (2 * math.pi) % 1.0], axis=1)
 
 
+# Densities that are known: what of a direction's cosine is even then.
+_OTHER_DENSITIES = {
+    "all directions of the half sphere come equally often": 1,
+    "directions have the density of the cosine's square": 3,
+}
+_SURELY = 4.0  # standard deviations: what is told of a mistake is held to more than what is called wrong
+
+
+def _is_even(shares: Numbers, bins: int) -> bool:
+    """Near enough to say so."""
+    return has_mean(shares, 0.5, math.sqrt(1 / 12), _SURELY) and is_uniform(shares, 4 * bins)
+
+
+_MEAN_LENGTH, _NEAR = 2 / 3, 0.04  # of the mean of all directions
+_APART = 0.98  # cosine: nearer to the normal it may be the normal itself
+
+
+def _has_another_axis(directions: Numbers, normal: Vector) -> bool:
+    """Whether they are spread as they should be, but for where they point to."""
+    mean = directions.mean(axis=0)
+    size = float(np.linalg.norm(mean))
+    if len(directions) < 2 or abs(size - _MEAN_LENGTH) > _NEAR or float(mean @ np.array(normal)) > _APART * size:
+        return False
+    cosines = directions @ mean / size
+    return bool((cosines > -_NEAR).all()) and abs(float((cosines**2).mean()) - 0.5) <= _NEAR
+
+
 def _density_problem(directions: Numbers, normal: Vector) -> str:
     """Of one direction nothing can be told: a smallest counterexample has too few."""
     problem = unit_problem(directions)
     if problem:
         return problem
-    if not (directions @ np.array(normal) >= -_LEVEL).all():
-        return "a direction leads below the surface"
+    if _has_another_axis(directions, normal):
+        return "directions lie around another axis than the normal"
+    is_below = directions @ np.array(normal) < -_LEVEL
+    if is_below.any():
+        return off("a direction leads below the surface", is_below.mean(keepdims=True))
     if len(directions) < 2:
         return ""
     shares = _shares(directions, normal)
@@ -81,6 +115,9 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
         problem = "directions do not come evenly from all sides around the normal"
         return uneven(problem, "directions around the normal, side by side", turns, goes_round=True)
     over = "directions from steep to level, in rings that should get the same number of them"
+    for words, power in _OTHER_DENSITIES.items():
+        if _is_even(np.clip(directions @ np.array(normal), 0.0, 1.0) ** power, bins):
+            return uneven(words, over, heights)
     if not has_mean(heights, 0.5, math.sqrt(1 / 12)):
         return uneven(f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often", over, heights)
     if not is_uniform(heights, 4 * bins):
@@ -234,10 +271,10 @@ def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     )
 
 
-def _scatter(draw: RandomSource, fill: Fill, normal: Vector, amount: int) -> Inputs:
+def _scatter(draw: RandomSource, fill: Fill, normal: Vector, amount: int, emission: Vector = _BLACK) -> Inputs:
     along = times(-1, draw.above(normal, 0.05))
     hit = Hit(draw.point(5), normal, along, draw.real(0.5, 9), fill, draw.chance(0.7))
-    return {"hit": hit, **draws(draw, amount)}
+    return {"hit": hit, "emission": Vec(emission), **draws(draw, amount)}
 
 
 def _colored(draw: RandomSource) -> Fill:
@@ -273,6 +310,8 @@ _SCATTER_DIFFUSE = Function(
         Group("any colour", lambda d: _scatter(d, _colored(d), d.direction(), 512)),
         Group("some channels black", lambda d: _scatter(d, _one_black(d), d.direction(), 512)),
         Group("a dark colour", lambda d: _scatter(d, _dark(d), d.direction(), 512)),
+        Group("white", lambda d: _scatter(d, Fill(), d.direction(), 512)),
+        Group("a lamp", lambda d: _scatter(d, _colored(d), d.direction(), 512, d.color(0.5, 4.0))),
         Group("nothing comes back", lambda d: _scatter(d, _black(d), d.direction(), 64), exact=True),
         Group("along an axis", lambda d: _scatter(d, _colored(d), d.axis(), 512), exact=True),
         Group("very many samples", lambda d: _scatter(d, _colored(d), d.direction(), 16_384)),
@@ -298,6 +337,13 @@ def _one_bright(draw: RandomSource) -> Inputs:
     return _weight(*(color[turn:] + color[:turn]))
 
 
+def _nearly_white(draw: RandomSource) -> Inputs:
+    """Its largest channel is above what a path may go on with, and below 1."""
+    color = [draw.real(0.955, 0.999), draw.real(0.1, 0.94), draw.real(0.1, 0.94)]
+    turn = draw.whole(0, 2)
+    return _weight(*(color[turn:] + color[:turn]))
+
+
 _SURVIVAL = Function(
     "survival_probability",
     number_answer("the probability", Tolerance(1e-6, 1e-5)),
@@ -307,6 +353,7 @@ _SURVIVAL = Function(
         Group(
             "nearly white, and more", lambda d: _weight(d.real(0.951, 20), d.real(0.1, 9), d.real(0.1, 1)), exact=True
         ),
+        Group("between the most and white", _nearly_white, exact=True),
         Group("a faint one", lambda d: _mixed(d, 1e-6, 1e-3)),
         Group("black", lambda _d: _weight(0.0, 0.0, 0.0), exact=True),
     ),
@@ -317,7 +364,6 @@ _SURVIVAL = Function(
 # with it, the mean of many is compared with the sum that the script makes certain.
 
 SURE = 3  # bounces before roulette, as in the contract
-_BLACK: Vector = (0.0, 0.0, 0.0)
 _ON_THE_HIT, _AT_THE_HIT = 5e-5, 0.02  # from the surface, in world units
 _DEGREES = 0.5
 _SMALLEST = 1e-12  # of a weight: what comes after it adds nothing
@@ -573,6 +619,29 @@ def _bright(draw: RandomSource) -> Inputs:
     return once(draw, PathScript(_BLACK, goes_on=False, hits=tuple(hits)))
 
 
+def _faint(draw: RandomSource) -> Inputs:
+    """Walls that take nearly all of the light, and a lamp so bright that what is left counts: nothing but roulette ends
+    a path, and these bounces are sure."""
+    walls = _hits(draw, ("", "s", "x") if draw.chance(0.3) else ("",) * draw.whole(1, SURE) + ("x",))
+    light, found = draw.color(0.5, 1.0), []
+    for wall in walls:
+        share = f32(draw.logarithmic(1e-3, 0.02))
+        scatter = wall.scatter and replace(wall.scatter, weight=(share, share, share))
+        found.append(replace(wall, light=_BLACK if scatter else rounded(light), scatter=scatter))
+        light = times(1 / share, light)
+    return once(draw, PathScript(_BLACK, goes_on=False, hits=tuple(found)))
+
+
+def _white_walls(draw: RandomSource) -> Inputs:
+    """They take nothing, and are no mirrors."""
+    make = _of_kinds(("", "ex"), ("", "", "ex"), ("s", "", "ex"), ("", "s", "ex"))
+    inputs = make(draw)
+    script = inputs["tracer"]
+    assert isinstance(script, PathScript)
+    hits = tuple(replace(hit, scatter=hit.scatter and replace(hit.scatter, weight=WHITE)) for hit in script.hits)
+    return {**inputs, "tracer": PathScript(_BLACK, goes_on=False, hits=hits)}
+
+
 def one_channel(draw: RandomSource) -> Vector:
     """A light that is red, green or blue and nothing else."""
     channel, light = draw.whole(0, 2), draw.color(0.5, 4.0)
@@ -608,6 +677,8 @@ _PATH_LIGHT = Function(
         Group("a very bright lamp", _bright),
         Group("a very bright lamp that is seen", _seen(lambda d: d.color(50, 2000))),
         Group("a lamp of one colour", _seen(one_channel)),
+        Group("white walls", _white_walls),
+        Group("faint paths", _faint),
         Group("a furnace", lambda d: often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: often(d, _furnace(d, 0.75, 0.8), 0.06)),
         Group("light found late", lambda d: often(d, _late(d), 0.2)),
