@@ -16,6 +16,7 @@ pytestmark = pytest.mark.portable
 _LEFT, _RIGHT = Sphere((-2.0, 0.0, 0.0), 1.0), Sphere((2.0, 0.0, 0.0), 1.0)
 _TWO: Inputs = {"surfaces": Surfaces((_LEFT, _RIGHT))}
 _ALL, _WEST, _EAST = "-3 -1 -1 3 1 1", "-3 -1 -1 -1 1 1", "1 -1 -1 3 1 1"
+_BETWEEN_MIDDLES = "-2 0 0 2 0 0"
 _ROOT = f"{_ALL} 1 0"
 _GOOD = f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 1 2 0 1"
 _HUNDRED: Inputs = {"surfaces": Surfaces(tuple(Sphere((float(i), 0.0, 0.0), 0.25) for i in range(100)))}
@@ -25,13 +26,15 @@ def _problem(line: str, inputs: Inputs = _TWO) -> str:
     return Case("build_bvh", "", inputs).verdict(BVH, line if inputs is not _TWO else _GOOD, line).problem
 
 
-def _row(leaf: int, step: int = 1) -> str:
-    """Over the hundred: halves of halves, and as many in a leaf; with another step the row is not sorted first."""
+def _row(leaf: int, step: int = 1, *, loose: bool = False) -> str:
+    """Over the hundred: halves of halves, and as many in a leaf; with another step the row is not sorted first.
+    `loose`: each box is as large as the root's."""
     order = sorted(range(100), key=lambda i: i * step % 100)
     nodes = [""]
 
     def build(place: int, begin: int, end: int) -> None:
-        box = f"{min(order[begin:end]) - 0.25} -0.25 -0.25 {max(order[begin:end]) + 0.25} 0.25 0.25"
+        held = order if loose else order[begin:end]
+        box = f"{min(held) - 0.25} -0.25 -0.25 {max(held) + 0.25} 0.25 0.25"
         if end - begin <= leaf:
             nodes[place] = f"{box} {begin} {end - begin}"
             return
@@ -71,6 +74,8 @@ def test_right_trees(tree: str) -> None:
         (f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 1 2 0 -1", "no surface of the scene"),
         (f"bvh 3 {_ROOT} {_WEST} 0 1 {_EAST} 1 1 2 0 2", "no surface of the scene"),
         (f"bvh 3 {_ROOT} {_EAST} 0 1 {_WEST} 1 1 2 0 1", "sticks out of the box of its leaf"),
+        (f"bvh 1 {_WEST} 0 2 2 0 1", "all of its surfaces but one"),
+        (f"bvh 1 {_BETWEEN_MIDDLES} 0 2 2 0 1", "holds the middles of its surfaces"),
         (f"bvh 3 {_WEST} 1 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1", "sticks out of its parent's"),
         (f"bvh 3 nan nan nan nan nan nan 1 0 {_WEST} 0 1 {_EAST} 1 1 2 0 1", "holds a number that is NaN"),
         (f"bvh 2 {_ROOT} {_WEST} 0 1 2 0 1", "beyond the end of the nodes"),
@@ -140,6 +145,7 @@ def test_many_surfaces_must_be_divided_well() -> None:
     root = " ".join(_row(4, 37).split(" ")[2:8])
     inflated = _row(4, 37).replace(root, "-300 -300 -300 300 300 300", 1)
     assert "dear" in verdict(inflated).problem, "a larger root makes no tree cheaper"
+    assert "larger than what is in them" in verdict(_row(4, loose=True)).problem
     assert MAX_COST > 1.5
 
 

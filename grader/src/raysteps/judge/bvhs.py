@@ -1,8 +1,9 @@
 """Answers that are bounding volume hierarchies: any of them is right that loses no surface and is not too dear."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from raysteps.common.vectors import add, times
 from raysteps.judge.answers import Answer, TooLarge, TooMuchWork
 from raysteps.judge.protocol import Box, Inputs, ProtocolError, TokenReader
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
@@ -102,6 +103,31 @@ def _holds(outer: Box, inner: Box, margin: float) -> bool:
     return lows and all(a >= b - margin for a, b in zip(outer.high, inner.high, strict=True))
 
 
+def _around(boxes: Sequence[Box]) -> Box:
+    low = [min(xs) for xs in zip(*(box.low for box in boxes), strict=True)]
+    high = [max(xs) for xs in zip(*(box.high for box in boxes), strict=True)]
+    return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+
+
+def _middle(box: Box) -> Box:
+    x, y, z = times(0.5, add(box.low, box.high))
+    return Box((x, y, z), (x, y, z))
+
+
+def _sticking_out(leaf: Box, held: Sequence[Box], margin: float) -> str:
+    """What the box of a leaf was made of, where that can be told; not all that it should hold."""
+
+    def is_of(boxes: Sequence[Box]) -> bool:
+        right = _around(boxes)
+        return _holds(leaf, right, margin) and _holds(right, leaf, margin)
+
+    if is_of([_middle(box) for box in held]):
+        return "the box of a leaf holds the middles of its surfaces, and not all of them"
+    if len(held) > 1 and any(is_of([*held[:i], *held[i + 1 :]]) for i in range(len(held))):
+        return "the box of a leaf holds all of its surfaces but one"
+    return "a surface sticks out of the box of its leaf"
+
+
 def _size(boxes: Sequence[Box]) -> float:
     def spread(axis: int) -> float:
         return max(box.high[axis] for box in boxes) - min(box.low[axis] for box in boxes)
@@ -112,14 +138,15 @@ def _size(boxes: Sequence[Box]) -> float:
 def _leaf_problem(tree: Bvh, node: BvhNode, boxes: Sequence[Box], margin: float, seen: set[int]) -> str:
     if node.first + node.count > len(tree.surfaces):
         return "a leaf reaches beyond the end of the list of surfaces"
-    for number in tree.surfaces[node.first : node.first + node.count]:
+    numbers = tree.surfaces[node.first : node.first + node.count]
+    for number in numbers:
         if not 0 <= number < len(boxes):
             return "the list holds something that is no surface of the scene"
         if number in seen:
             return "a surface is in two leaves"
         seen.add(number)
         if not _holds(node.box, boxes[number], margin):
-            return "a surface sticks out of the box of its leaf"
+            return _sticking_out(node.box, [boxes[own] for own in numbers if 0 <= own < len(boxes)], margin)
     return ""
 
 
@@ -169,8 +196,26 @@ def _problem(inputs: Inputs, expected: Bvh, actual: Bvh) -> str:
     if sum(node.count > 0 for node in reached(actual)) < 1 / _MAX_IN_LEAF:
         return TooMuchWork("the tree has hardly any leaves: a ray is spared nothing")
     whole = expected.nodes[0].box
-    dear = bvh_cost(actual, whole) > MAX_COST * bvh_cost(expected, whole)
-    return "the tree is right, but its cuts are dear" if dear else ""
+    most = MAX_COST * bvh_cost(expected, whole)
+    if bvh_cost(actual, whole) <= most:
+        return ""
+    is_loose = bvh_cost(_tight(actual, [bounds(surface) for surface in given.surfaces]), whole) <= most
+    return "boxes are larger than what is in them" if is_loose else "the tree is right, but its cuts are dear"
+
+
+def _tight(tree: Bvh, boxes: Sequence[Box]) -> Bvh:
+    """The same one, each box as small as it may be."""
+    nodes = [*tree.nodes]
+
+    def fit(place: int) -> Box:
+        node = nodes[place]
+        numbers = tree.surfaces[node.first : node.first + node.count]
+        below = [boxes[number] for number in numbers] or [fit(node.first), fit(node.first + 1)]
+        nodes[place] = replace(node, box=_around(below))
+        return nodes[place].box
+
+    fit(0)
+    return replace(tree, nodes=tuple(nodes))
 
 
 BVH = Answer(read_bvh, bvh_words, _problem)
