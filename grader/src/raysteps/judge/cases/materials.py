@@ -421,6 +421,11 @@ def _rough(draw: RandomSource, low: float, high: float, rough: tuple[float, floa
     return {"hit": hit, "roughness": _alpha(draw, *rough), **draws(draw, amount)}
 
 
+def _white_metal(draw: RandomSource) -> Inputs:
+    """It takes no light, and hides next to nothing: of some samples the weight is exactly white, as of a mirror."""
+    return {"hit": _hit(draw, 1.0, 1.0, Fill()), "roughness": _alpha(draw, 0.02, 0.03), **draws(draw, 1024)}
+
+
 _SCATTER_METAL = Function(
     "scatter_metal",
     Answer(
@@ -435,6 +440,7 @@ _SCATTER_METAL = Function(
         Group("any angle and roughness", lambda d: _rough(d, 0.15, 0.98, (0.1, 1.0), 256)),
         Group("very many samples", lambda d: _rough(d, 0.9, 0.98, (0.03, 0.05), 16_384)),
         Group("a view from below", lambda d: _rough(d, -0.95, -0.1, (0.1, 1.0), 16)),
+        Group("white, nearly smooth, from straight above", _white_metal),
     ),
 )
 

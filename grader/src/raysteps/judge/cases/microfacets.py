@@ -72,12 +72,21 @@ def _stretched(view: Numbers, alpha: float) -> tuple[Numbers, Numbers, Numbers, 
 def _seen_shares(normals: Numbers, view: Numbers, alpha: float) -> Numbers:
     """Of normals row by row, all for one view."""
     stretch, seen, across, up = _stretched(view, alpha)
-    tips = units(normals / stretch)
+    return _shares_of_tips(units(normals / stretch), seen, across, up)
+
+
+def _shares_of_tips(tips: Numbers, seen: Numbers, across: Numbers, up: Numbers) -> Numbers:
     x, y = np.clip(tips @ across, -1, 1), tips @ up
     half = np.sqrt(np.maximum(1 - x * x, 1e-12))
     one = 0.5 + (x * half + np.arcsin(x)) / math.pi
     other = (y / half + seen[2]) / (1 + seen[2])
     return np.asarray(np.clip(np.stack([one, other], axis=1), 0.0, 1.0))
+
+
+def _are_of_half_sphere(normals: Numbers, view: Numbers, alpha: float, bins: int) -> bool:
+    """Whether they would be right if the surface stayed stretched."""
+    shares = _shares_of_tips(normals, *_stretched(view, alpha)[1:])
+    return is_uniform(shares[:, 0], 4 * bins) and is_uniform(shares[:, 1], 4 * bins)
 
 
 def visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
@@ -92,7 +101,10 @@ def visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
     shares = _seen_shares(normals, np.array(view), alpha)
     bins = _MANY if len(normals) >= _MANY_NORMALS else _FEW
     across, up = shares[:, 0], shares[:, 1]
-    if not (is_uniform(across, 4 * bins) and has_mean(across, 0.5, math.sqrt(1 / 12))):
+    is_right_across = is_uniform(across, 4 * bins) and has_mean(across, 0.5, math.sqrt(1 / 12))
+    if not is_right_across and _are_of_half_sphere(normals, np.array(view), alpha, bins):
+        return "the normals are those of the half sphere: they are not brought back from it"
+    if not is_right_across:
         return uneven(_ASKEW, _ACROSS, across)
     if not has_mean(up, 0.5, math.sqrt(1 / 12)):
         return uneven(_leans_too_much(towards=bool(up.mean() < 0.5)), _UP, up)
