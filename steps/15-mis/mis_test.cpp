@@ -29,6 +29,7 @@ struct Stop {
     bool specular = false;
     bool scatters = true;
     bool front_face = true;
+    glm::vec3 direction{-1.0F, 0.0F, 0.0F};
 };
 
 /// A path from stop to stop, all of them a unit apart along x. Behind the last one there is nothing, or the last one
@@ -84,10 +85,8 @@ public:
         if (!now_.scatters) {
             return std::nullopt;
         }
-        return ScatterSample{.direction = glm::vec3(-1.0F, 0.0F, 0.0F),
-                             .weight = now_.weight,
-                             .pdf = now_.pdf,
-                             .specular = now_.specular};
+        return ScatterSample{
+            .direction = now_.direction, .weight = now_.weight, .pdf = now_.pdf, .specular = now_.specular};
     }
 
     [[nodiscard]] Color background() const override { return background_; }
@@ -354,9 +353,12 @@ TEST_CASE("mis_path_light: the lamp's density is that of the hit before", "[15-m
         REQUIRE_FALSE(path.asked_from.empty());
         INFO("light_pdf(from, hit): from is where the ray started that met the lamp");
         CHECK_THAT(path.asked_from.back(), IsNear(path.hits[bounces - 1].position, 5e-3F));
-        INFO("and that ray is scattered_ray's: 0.001 off the surface");
-        CHECK_THAT(path.origins[1], IsNear(glm::vec3(0.999F, 0.0F, 0.0F), 1e-5F));
     }
+    INFO("that ray is scattered_ray's: 0.001 off the surface, towards the normal");
+    PathOfStops slanting({Stop{.direction = glm::vec3(-0.6F, 0.8F, 0.0F)}, lamp});
+    static_cast<void>(light_along(slanting));
+    REQUIRE(slanting.origins.size() == 2);
+    CHECK_THAT(slanting.origins[1], IsNear(glm::vec3(0.999F, 0.0F, 0.0F), 1e-5F));
 }
 
 TEST_CASE("mis_path_light: lamps are sampled at each hit, once", "[15-mis][mis_path_light]") {
@@ -367,6 +369,8 @@ TEST_CASE("mis_path_light: lamps are sampled at each hit, once", "[15-mis][mis_p
     CHECK_THAT(light_along(path), IsNear(Color(2.025F)));
     INFO("direct_samples is asked once at each of the three hits");
     CHECK(path.samplings == 3);
+    INFO("from behind like from before");
+    CHECK_THAT(light_along({Stop{.samples = {sample}, .scatters = false, .front_face = false}}), IsNear(Color(0.9F)));
     INFO("a lamp is a surface, too: 2, and 0.9 + 0.5 * 0.9");
     PathOfStops from_lamp(
         {Stop{.emission = Color(2.0F), .samples = {sample}}, Stop{.samples = {sample}, .scatters = false}});

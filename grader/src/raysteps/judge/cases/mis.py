@@ -5,9 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from raysteps.common.vectors import Vector, add, cross, minus, unit
+from raysteps.common.vectors import Vector, add, cross, minus, times, unit
 from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, number_answer, read_vector
-from raysteps.judge.cases.path_tracing import SURE, VERY_LATE, length_problem, often, once, one_channel, path_answer
+from raysteps.judge.cases.path_tracing import (
+    SURE,
+    VERY_LATE,
+    WHITE,
+    length_problem,
+    often,
+    once,
+    one_channel,
+    path_answer,
+)
 from raysteps.judge.estimates import Estimates, estimates_problem
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, Real, Vec, f32, rounded, vector_words
@@ -232,6 +241,18 @@ def _emission_in_mirror(draw: RandomSource) -> Inputs:
     return {"sample": _scatter(draw, pdf, specular=draw.chance(0.7)), "light_pdf": Real(_density(draw))}
 
 
+def _behind_white(draw: RandomSource) -> Inputs:
+    """Takes nothing, and is no mirror."""
+    inputs = _emission(draw, 0.2, 5)
+    sample = inputs["sample"]
+    assert isinstance(sample, WeighedScatter)
+    return {**inputs, "sample": _whitened(sample)}
+
+
+def _whitened(sample: WeighedScatter) -> WeighedScatter:
+    return replace(sample, scatter=replace(sample.scatter, weight=WHITE))
+
+
 def _never_sampled(draw: RandomSource) -> Inputs:
     return {"sample": _scatter(draw, _density(draw)), "light_pdf": Real(0.0)}
 
@@ -244,6 +265,7 @@ _EMISSION_WEIGHT = Function(
         Group("far from each other", lambda d: _emission(d, 1e-3, 1e3)),
         Group("in a mirror", _emission_in_mirror, exact=True),
         Group("a lamp that is never sampled", _never_sampled, exact=True),
+        Group("behind a white surface", _behind_white),
     ),
 )
 
@@ -310,6 +332,33 @@ def _very_bright(draw: RandomSource, hit: MisHit) -> MisHit:
     """Whoever cuts bright light off makes the mean wrong."""
     emission = draw.color(100, 5000) if any(hit.emission) else _BLACK
     return replace(hit, emission=emission, samples=DirectSamples(tuple(_bright(draw) for _ in hit.samples.samples)))
+
+
+def _white(_draw: RandomSource, hit: MisHit) -> MisHit:
+    """It takes nothing, and is no mirror for that."""
+    return replace(hit, scatter=hit.scatter and _whitened(hit.scatter))
+
+
+def _faint(draw: RandomSource) -> Inputs:
+    """Walls that take nearly all of the light, and a lamp so bright that what is left counts: nothing but roulette ends
+    a path, and these bounces are sure."""
+    kinds = ("",) * draw.whole(1, SURE) + (("ex", "lx")[draw.whole(0, 1)],)
+    walls, light = _script(draw, kinds).hits, draw.real(0.5, 1.0)
+    found = []
+    for wall in walls[:-1]:
+        share = f32(draw.logarithmic(1e-3, 0.02))
+        light /= share
+        assert wall.scatter is not None
+        scatter = replace(wall.scatter, scatter=replace(wall.scatter.scatter, weight=(share, share, share)))
+        found.append(replace(wall, scatter=scatter))
+    lamp = replace(walls[-1], emission=_brighter(walls[-1].emission, light))
+    samples = (replace(sample, light=_brighter(sample.light, light)) for sample in lamp.samples.samples)
+    hits = (*found, replace(lamp, samples=DirectSamples(tuple(samples))))
+    return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+
+
+def _brighter(color: Vector, by: float) -> Vector:
+    return rounded(times(by, color))
 
 
 def _one_colored(draw: RandomSource, hit: MisHit) -> MisHit:
@@ -457,11 +506,14 @@ _MIS_PATH_LIGHT = Function(
         Group("a lamp that the path meets", _of_kinds(("", "ex"), ("l", "ex"), ("", "", "ex"), ("l", "el", "ex"))),
         Group("a lamp that is never sampled", _of_kinds(("", "enx"), ("l", "enx"), ("", "", "enx"))),
         Group("a lamp from behind", _of_kinds(("ebx",), ("eb", "x"), ("s", "ebx"), ("", "ebx"))),
+        Group("sampled from behind", _of_kinds(("blx",), ("bl", "x"), ("l", "blx"), ("bl", "ex"), ("s", "blx"))),
         Group("lamps without a size", _of_kinds(("px",), ("p", "px"), ("lp", "lpx"))),
         Group("mirrors", _of_kinds(("s", "ex"), ("s", "s", "ex"), ("", "s", "ex"), ("s", "", "ex"), ("s", "le", "x"))),
         Group("very bright lamps", _changed(_very_bright, ("el", "x"), ("l", "ex"), ("", "lex"), ("s", "ex"))),
         Group("lamps of one colour", _changed(_one_colored, ("ex",), ("", "ex"), ("s", "ex"), ("e", "l", "ex"))),
         Group("nothing is met", _of_kinds((), ("",), ("s",), ("", "l"), ("l", "s", ""), background=True)),
+        Group("white walls", _changed(_white, ("", "ex"), ("l", "ex"), ("", "", "ex"), ("s", "", "ex"))),
+        Group("faint paths", _faint),
         Group("a polished plate, a large lamp", lambda d: often(d, _polished(d), 0.1)),
         Group("a dull plate, a small lamp", lambda d: often(d, _dull(d), 0.05)),
         Group("lamps of all sizes", lambda d: often(d, _of_all_sizes(d), 0.06)),
