@@ -308,4 +308,6 @@ def off_surface(position: Vector, normal: Vector, origin: Vector, farthest: floa
     slack = 4e-7 * (length(position) + 1)  # float has no finer steps there
     if not length(offset) <= farthest + slack:
         return "the ray does not start at the hit"
-    return "" if dot(offset, normal) > 0 else "the ray starts on the wrong side of the surface, or on it"
+    if dot(offset, normal) > 0:
+        return ""
+    return f"the ray starts {'on' if length(offset) <= slack else 'on the wrong side of'} the surface"
