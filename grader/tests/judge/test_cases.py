@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
+from raysteps.common.vectors import dot
 from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.project import Project
-from raysteps.judge.answers import Answer
+from raysteps.judge.answers import Answer, off_surface
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32, text, vec_of
@@ -140,6 +141,21 @@ def test_every_grade_asks_for_normals_with_three_parts_that_are_the_same(
     for seed in ("diagnosis", *range(1, 21)):
         normals = [vec_of(case.inputs, "normal") for case in make_cases(step, plan, seed)]
         assert sum(len(set(normal)) == 1 for normal in normals) >= 2, seed
+
+
+def test_every_eye_sees_the_side_of_the_normal(project: Project, steps: list[Step]) -> None:
+    """Whoever asks, and answers black for the others, is right."""
+    (step,) = choose(steps, ["03"])
+    (plan,) = (one for one in _plan(project, step).functions if one.name == "specular")
+    for case in make_cases(step, plan, 1):
+        assert dot(vec_of(case.inputs, "to_eye"), vec_of(case.inputs, "normal")) >= 0, case.group
+
+
+def test_a_ray_that_starts_on_its_surface_is_not_one_from_the_wrong_side() -> None:
+    up, hit = (0.0, 0.0, 1.0), (0.0, 0.0, 5.0)
+    assert off_surface(hit, up, (0.0, 0.0, 5.001)) == ""
+    assert off_surface(hit, up, hit) == "the ray starts on the surface"
+    assert off_surface(hit, up, (0.0, 0.0, 4.999)) == "the ray starts on the wrong side of the surface"
 
 
 def test_of_an_answer_by_chance_the_reference_has_one_of_many() -> None:

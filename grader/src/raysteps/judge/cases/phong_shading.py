@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from raysteps.common.vectors import Vector, add, times, unit
+from raysteps.common.vectors import Vector, add, dot, times, unit
 from raysteps.judge.answers import Answer, channels, itself, read_vector, vector, words_of_vector
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Fill, Hit, Inputs, Light, Lights, Vec, mirrored, rounded
@@ -131,6 +131,8 @@ DIFFUSE = Function(
 
 # Cases of step 03: highlights.
 
+_SEEN = 0.02  # cosine between normal and eye
+
 
 def _specular(draw: RandomSource, fill: Fill, light: Vector, normal: Vector, eye: Vector) -> Inputs:
     return {
@@ -147,13 +149,18 @@ def _brightest(to_light: Vector, normal: Vector) -> Vector:
     return unit(mirrored(times(-1.0, to_light), normal))
 
 
+def _eye(draw: RandomSource, normal: Vector, brightest: Vector, low: float, high: float) -> Vector:
+    """On the side of the surface that the normal points to, where all eyes are: to ask about others is no mistake."""
+    return draw.until(lambda eye: dot(eye, normal) > _SEEN, lambda: draw.above(brightest, low, high))
+
+
 def _highlight(draw: RandomSource, *, shine: float | None = None) -> Inputs:
     """The eye is near the mirrored light."""
     normal = draw.direction()
     to_light = draw.above(normal, 0.1, 0.95)
     brightest = _brightest(to_light, normal)
     fill = replace(draw.fill(), shine=draw.real(2, 12) if shine is None else shine)
-    return _specular(draw, fill, to_light, normal, draw.above(brightest, 0.75, 0.995))
+    return _specular(draw, fill, to_light, normal, _eye(draw, normal, brightest, 0.75, 0.995))
 
 
 def _no_highlight(draw: RandomSource) -> Inputs:
@@ -161,15 +168,16 @@ def _no_highlight(draw: RandomSource) -> Inputs:
     normal = draw.direction()
     to_light = draw.above(normal, 0.1, 0.95)
     brightest = _brightest(to_light, normal)
-    return _specular(draw, draw.fill(), to_light, normal, draw.above(brightest, -0.95, -0.1))
+    return _specular(draw, draw.fill(), to_light, normal, _eye(draw, normal, brightest, -0.95, -0.1))
 
 
 def _light_behind(draw: RandomSource) -> Inputs:
-    """And the eye where the highlight would be, if the surface let the light through."""
+    """Its mirrored way points into the surface, and the eye above is less than a right angle away from that."""
     normal = draw.direction()
-    to_light = draw.above(normal, -0.95, -0.1)
+    to_light = draw.above(normal, -0.7, -0.1)
     brightest = _brightest(to_light, normal)
-    return _specular(draw, draw.fill(), to_light, normal, draw.above(brightest, 0.8, 0.99))
+    fill = replace(draw.fill(), shine=draw.real(1, 4))
+    return _specular(draw, fill, to_light, normal, _eye(draw, normal, brightest, 0.3, 0.95))
 
 
 def _simple_specular(draw: RandomSource) -> Inputs:
@@ -194,7 +202,7 @@ def _very_high_shine(draw: RandomSource) -> Inputs:
     to_light = draw.above(normal, 0.1, 0.95)
     brightest = _brightest(to_light, normal)
     fill = replace(draw.fill(), shine=draw.real(100, 400))
-    return _specular(draw, fill, to_light, normal, draw.above(brightest, 0.993, 1.0))
+    return _specular(draw, fill, to_light, normal, _eye(draw, normal, brightest, 0.993, 1.0))
 
 
 def _light_on_horizon(draw: RandomSource) -> Inputs:
