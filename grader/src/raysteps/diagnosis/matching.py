@@ -1,7 +1,7 @@
 """How well a known mistake explains what was seen, function by function and picture by picture."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from raysteps.course.mutants import Mutant
@@ -207,16 +207,20 @@ _MIXED = 0.5  # of a case which both mistakes spoil, and where the answer is a t
 
 
 def pair_score(one: Agreement, other: Agreement) -> float:
-    """The share of the wrong cases that one of the two explains; 0 where one of them is not needed."""
+    """The share of the wrong cases that one of the two explains; 0 where one of them is not needed. And where each of
+    them is missing in what the other explains: of two mistakes one may hide the other, but not each the other."""
     mine, both = one.mine & other.mine, one.mistake & other.mistake
     whole = 0.0
-    own = {0: 0, 1: 0}
+    own, hidden = {0: 0, 1: 0}, {0: 0, 1: 0}
     for number in mine:
         first, second = one.alike.get(number, 0.0), other.alike.get(number, 0.0)
         whole += max(first, second, _MIXED if number in both else 0.0)
-        own[0] += first >= _SAME > second
-        own[1] += second >= _SAME > first
-    return whole / len(mine | one.mistake | other.mistake) if min(own.values()) >= _OWN else 0.0
+        for which, is_own in enumerate((first >= _SAME > second, second >= _SAME > first)):
+            own[which] += is_own
+            hidden[which] += is_own and number in both
+    if min(own.values()) < _OWN or min(hidden.values()) >= _OWN:
+        return 0.0
+    return whole / len(mine | one.mistake | other.mistake)
 
 
 def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | None:
@@ -301,9 +305,20 @@ def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
         named.append(NamedMistake(best.mutant, tuple(explained), tuple(alike), best.is_seen()))
         open_.names -= explained.keys()
         open_.told |= best.spoilt
+    named = _each_once(named)
     known = {one.mutant.id for one in named}
     pairs = [one for one in _pairs(matches, open_.names) if one.mutant.id not in known]
     return named + pairs[: _MAX - len(named)]
+
+
+def _each_once(named: Sequence[NamedMistake]) -> list[NamedMistake]:
+    """With all that it explains: what its pictures tell may explain more at a second look."""
+    found: dict[str, NamedMistake] = {}
+    for one in named:
+        first = found.get(one.mutant.id, one)
+        explains = dict.fromkeys((*first.explains, *one.explains))
+        found[one.mutant.id] = replace(first, explains=tuple(explains))
+    return list(found.values())
 
 
 def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[NamedMistake]:
