@@ -5,6 +5,7 @@ import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import groupby
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -237,27 +238,34 @@ def _close(one: str, other: str) -> bool:
 def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
     """Of the words that are wrong in one of the two, the share in which they are the same. Opposite signs count less:
     who takes the wrong end of a sphere turns its normal in one way or the other. Without any word that is the same they
-    count nothing: light that is taken away is not light that is added."""
+    count nothing: light that is taken away is not light that is added. Nor beside a number that has the same sign: a
+    direction that is turned as a whole has none."""
     rights, mistakes, mines = right_line.split(), mistake_line.split(), my_line.split()
     if not len(mistakes) == len(mines) <= _MAX_WORDS:
         return 0.0
     rights = rights if len(rights) == len(mines) else [""] * len(mines)
-    pairs = [
-        (mistake, own)
-        for right, mistake, own in zip(rights, mistakes, mines, strict=True)
-        if not (_close(right, mistake) and _close(right, own))
-    ]
-    worth = [_worth(*pair) for pair in pairs]
-    if not pairs:
+    words = zip(rights, mistakes, mines, strict=True)
+    wrong = [not (_close(right, mistake) and _close(right, own)) for right, mistake, own in words]
+    runs = groupby(range(len(mines)), key=wrong.__getitem__)
+    worth = [one for is_wrong, run in runs if is_wrong for one in _worth([(mistakes[i], mines[i]) for i in run])]
+    if not worth:
         return 1.0
     return sum(worth) / len(worth) if max(worth) == 1.0 else 0.0
 
 
-def _worth(mistake: str, mine: str) -> float:
-    if _close(mistake, mine):
-        return 1.0
-    turned = mistake.removeprefix("-") if mistake.startswith("-") else f"-{mistake}"
-    return _TURNED if {mistake, mine} == {"0", "1"} or _close(turned, mine) else 0.0
+def _worth(run: Sequence[tuple[str, str]]) -> list[float]:
+    """Of words that stand side by side, and are all wrong."""
+    has_same_sign = any(_close(*pair) and not _is_turned(*pair) for pair in run)
+    turned = 0.0 if has_same_sign else _TURNED
+    return [
+        1.0 if _close(*pair) else _TURNED if set(pair) == {"0", "1"} else turned if _is_turned(*pair) else 0.0
+        for pair in run
+    ]
+
+
+def _is_turned(mistake: str, mine: str) -> bool:
+    """Whether it is the same number with the other sign, as 0 is of itself."""
+    return _close(mistake.removeprefix("-") if mistake.startswith("-") else f"-{mistake}", mine)
 
 
 @lru_cache(maxsize=1 << 12)  # one answer is compared with those of all mistakes
