@@ -24,8 +24,9 @@ from raysteps.images.render import (
     describe_exit,
     judge_picture,
     part_of_its_pixels,
+    picture_task,
+    read_rendered,
     reference_work,
-    render,
     shown_reference,
 )
 from raysteps.results.model import ImageResult, Integration, Termination, TestResult
@@ -60,10 +61,10 @@ class ImageGrader:
 
     def render(self, program: Program, scene: Path, args: tuple[str, ...], *, noisy: bool = False) -> Rendered:
         limits = self.limits
-        rendered = render(self.sandbox, program, scene, args, limits.of_program(), estimates=noisy)
-        if rendered.ran.was_stopped:
+        ran = self.sandbox.run(picture_task(program, scene, args, limits.of_program(), estimates=noisy))
+        if ran.was_stopped:
             self.stopped()
-        return replace(rendered, sooner=limits.is_impatient)
+        return replace(read_rendered(ran, estimates=noisy), sooner=limits.is_impatient)
 
 
 def trouble(rendered: Rendered) -> tuple[Termination, str]:

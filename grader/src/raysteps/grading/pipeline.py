@@ -19,6 +19,7 @@ from raysteps.diagnosis.diagnose import Diagnostician
 from raysteps.diagnosis.mutant_fingerprints import are_learned
 from raysteps.grading.build_messages import link_message
 from raysteps.grading.images import (
+    ImageGrader,
     grade_integration,
     judge,
     part_of_a_picture,
@@ -43,7 +44,7 @@ from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
 from raysteps.judge.hidden_tests import make_all_cases, run_hidden_tests, take_back, unspared, why_unspared
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, reference_unkept
-from raysteps.results.model import HiddenResult, Integration, Results, Settings, StepResult, Timing
+from raysteps.results.model import HiddenResult, ImageResult, Integration, Results, Settings, StepResult, Timing
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import AccountingSandbox, Sandbox
 from raysteps.submission.load import Submission
@@ -79,9 +80,8 @@ class HiddenStepGrader(StepGrader):
         apart: Sandbox,
     ) -> None:
         self._plan = read_plan(work.kit.project, step)
-        super().__init__(work, step, limits, compiled, judged=self._plan is not None)
+        super().__init__(work, step, limits, compiled, spare, judged=self._plan is not None)
         self._settings = settings
-        self._spare = spare
         self._apart = apart  # runs what is asked a second time
         self._ran = False
         self._unexplained = False
@@ -110,20 +110,29 @@ class HiddenStepGrader(StepGrader):
             self._result = StepResult(step.id, "failed", 0.0, most, step.bonus, messages=[_NOT_GRADED])
 
     def grade(self) -> StepResult:
-        """The visible tests and the judge's cases, and pictures, those of scenes that nobody has seen, too."""
+        """The visible tests, then pictures, those of scenes that nobody has seen, too, and the judge's cases."""
         with self._guarded():
             programs = self.programs()
             if programs is None:
                 return self._result
-            step, plan, result, kit, gallery = self.step, self._plan, self._result, self._work.kit, self._gallery
-            completed = self._completed()
+            step, plan, result, kit = self.step, self._plan, self._result, self._work.kit
+            binary = self._compiled[step.id].binary
+            completed = None if binary is None else self._completed(binary)
             unseen = () if plan is None else hidden_scenes(kit.project, step, plan, self._settings.seed)
-            scenes = []
-            with self._spare.beside(partial(self._test_and_ask, programs, completed)):
-                for case in step.images:
-                    result.images.append(judge(gallery, programs["raytrace"], step, case))
-                for scene in unseen:
-                    scenes.append(self._render_scene(programs["raytrace"], scene))
+            draw = partial(self._draw, programs["raytrace"], unseen)
+            early = self._spare.start(partial(draw, self._gallery))
+            self._run_tests(programs["test"])
+            if completed is not None:
+                self._run_tests_again(completed["test"])
+            early = self._drawn_again(draw, early)
+            if early is None:
+                result.images, scenes = draw(self._gallery)
+            if plan is not None and binary is not None:
+                limits = limits_after(result.tests, self._limits)  # a picture that hangs takes no time from functions
+                result.hidden = self._asking(plan, programs["worker"], completed, limits)()
+                self._ask_apart(binary, plan, limits)
+            if early is not None:
+                result.images, scenes = draw(self._gallery) if early.cancel() else early.result()
             not_spared = unspared(result.images, result.hidden)
             take_back(result.images, result.hidden)
             spares = not why_unspared(result.hidden)
@@ -134,22 +143,18 @@ class HiddenStepGrader(StepGrader):
             self._ran = True
         return self._result
 
-    def _test_and_ask(self, programs: Programs, completed: Programs | None) -> None:
-        """The visible tests, then the judge's cases."""
-        kit, result, settings, plan = self._work.kit, self._result, self._settings, self._plan
-        self._run_tests(programs["test"])
-        if completed is not None:
-            self._run_tests_again(completed["test"])
-        if plan is None:
-            return
-        tests = kit.tests[self.step.id]
-        limits = limits_after(result.tests, self._limits)
-        ask = self._ask = self._asked_of(programs["worker"], completed, limits)
+    def _asking(
+        self, plan: Plan, worker: Program, completed: Programs | None, limits: StepLimits
+    ) -> Callable[[], list[HiddenResult]]:
+        """Asks the judge's cases when it is called."""
+        kit, settings = self._work.kit, self._settings
+        ask = self._ask = self._asked_of(worker, completed, limits)
         if settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
             self._examples = Examples(
                 ask, lambda cases, _: reference_unkept(kit, cases), self._work.out, self._work.say
             )
-        result.hidden = run_hidden_tests(
+        return partial(
+            run_hidden_tests,
             self.step,
             plan,
             ask,
@@ -157,17 +162,23 @@ class HiddenStepGrader(StepGrader):
             settings.seed,
             limits.seconds,
             self._examples,
-            known_to_hang(result.tests, tests),
+            known_to_hang(self._result.tests, kit.tests[self.step.id]),
         )
-        self._ask_apart(plan, limits)
 
-    def _render_scene(self, program: Program, scene: HiddenScene) -> _RenderedScene:
-        """One that nobody has seen. The file's name says nothing about what it is for."""
-        nff = scene.nff.encode()
-        path = self._work.folder / self.step.number / f"{hashlib.sha256(nff).hexdigest()[:16]}.nff"
-        write_bytes(path, nff)
-        rendered = self._gallery.render(program, path, scene.args, noisy=scene.max_noise is not None)
-        return _RenderedScene(scene, path, rendered)
+    def _draw(
+        self, program: Program, unseen: Sequence[HiddenScene], gallery: ImageGrader
+    ) -> tuple[list[ImageResult], list[_RenderedScene]]:
+        """The step's pictures, and those of scenes that nobody has seen. These have files whose names say nothing."""
+        images, scenes = [], []
+        for case in self.step.images:
+            images.append(judge(gallery, program, self.step, case))
+        for scene in unseen:
+            nff = scene.nff.encode()
+            path = self._work.folder / self.step.number / f"{hashlib.sha256(nff).hexdigest()[:16]}.nff"
+            write_bytes(path, nff)
+            rendered = gallery.render(program, path, scene.args, noisy=scene.max_noise is not None)
+            scenes.append(_RenderedScene(scene, path, rendered))
+        return images, scenes
 
     def _judge_scene(self, made: _RenderedScene, not_spared: str, *, spares: bool) -> HiddenResult:
         """`not_spared`: why few tests earn nothing; `spares`: whether a picture that does not pass earns something all
@@ -210,14 +221,7 @@ class HiddenStepGrader(StepGrader):
         functions = self.step.functions
         return list(functions[max(map(functions.index, self._unfinished), default=len(functions)) + 1 :])
 
-    @property
-    def _binary(self) -> dict[str, Path]:
-        """By its step's number."""
-        binary = self._compiled[self.step.id].binary
-        assert binary is not None
-        return {self.step.number: binary}
-
-    def _completed(self) -> Programs | None:
+    def _completed(self, binary: Path) -> Programs | None:
         """The programs of the tests and of the judge with the reference's function in place of the one that is not
         written. None where it is not a single one or the last, or where steps are no libraries: with more of them
         missing, what is left would be taken for most of the work."""
@@ -227,7 +231,7 @@ class HiddenStepGrader(StepGrader):
             return None
         programs: Programs = {}
         for kind in ("test", "worker"):
-            program, _ = self._build.program(kind, step, self._binary, self._limits, replaced=names)
+            program, _ = self._build.program(kind, step, {step.number: binary}, self._limits, replaced=names)
             if program is None:
                 return None
             programs[kind] = program
@@ -257,7 +261,7 @@ class HiddenStepGrader(StepGrader):
     # A function that is wrong costs its own hidden points only: those after it, which may call it, are asked again with
     # the reference's in its place.
 
-    def _ask_apart(self, plan: Plan, limits: StepLimits) -> None:
+    def _ask_apart(self, binary: Path, plan: Plan, limits: StepLimits) -> None:
         """Whoever is better so is judged so. Who hung is not asked again, nor anybody where several functions are not
         written: as in `_completed`, what is left would be taken for most of the work. A tree that spares nothing stays:
         a search through it spares nothing either."""
@@ -271,7 +275,7 @@ class HiddenStepGrader(StepGrader):
             if item.outcome != "timeout":
                 replaced = {other.name for other in wrong[:before] if not other.spares_nothing}
                 replaced |= missing if item.name in self._after_missing() else set()
-                worker = self._worker_with(replaced)
+                worker = self._worker_with(binary, replaced)
             if worker is None:
                 continue
             again = run_hidden_tests(
@@ -295,11 +299,12 @@ class HiddenStepGrader(StepGrader):
                 "those before them that are wrong."
             )
 
-    def _worker_with(self, replaced: Collection[str]) -> Program | None:
+    def _worker_with(self, binary: Path, replaced: Collection[str]) -> Program | None:
         """With the reference's functions in place of these. None where steps are no libraries."""
         step, names = self.step, self._work.kit.linker_names(self.step, replaced)
+        binaries = {step.number: binary}
         build = StudentBuild(self._work.kit, self._apart, self._work.folder)
-        return build.program("worker", step, self._binary, self._limits, replaced=names)[0] if names else None
+        return build.program("worker", step, binaries, self._limits, replaced=names)[0] if names else None
 
     @property
     def has_to_learn(self) -> bool:
@@ -420,7 +425,7 @@ def grade_submission(
             ahead.until_interrupted(),
         ):
             say("building the steps")
-            spare.prepare(partial(_make_questions, work, chosen, settings.seed))  # while the compiler works
+            spare.start(partial(_make_questions, work, chosen, settings.seed))  # while the compiler works
             compiled = compile_steps(work, chosen, pool, settings.limits)
 
             graders = [

@@ -14,18 +14,17 @@ from raysteps.common.errors import RaystepsError
 from raysteps.common.platform import processor_count
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, earlier
-from raysteps.grading.images import judge
+from raysteps.grading.images import ImageGrader, judge
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
 from raysteps.grading.step import GradingContext, SpareProcessors, StepGrader, answers_of, compile_steps
 from raysteps.grading.unit_tests import has_crashed, has_hung, set_aside, tell_crash_line
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
-from raysteps.results.model import Integration, Results, StepResult, Timing
+from raysteps.results.model import ImageResult, Integration, Results, StepResult, Timing
 from raysteps.sandbox.task import AccountingSandbox, Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import NOTHING_AHEAD, Compiled, CompiledAhead, Program, StudentBuild, own_libraries
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
-from raysteps.toolchain.limits import StepLimits
 
 # One step between the student's own steps: a students' kit has no reference to put around it.
 
@@ -44,17 +43,7 @@ _LARGE_SECONDS = 5.0  # of all large pictures together, on the clock: nobody wai
 class SelfCheckGrader(StepGrader):
     """What a student can be told at home."""
 
-    def __init__(
-        self,
-        work: GradingContext,
-        step: Step,
-        limits: StepLimits,
-        compiled: dict[str, Compiled],
-        spare: SpareProcessors,
-    ) -> None:
-        super().__init__(work, step, limits, compiled)
-        self._spare = spare
-        self._raytrace: Program | None = None
+    _raytrace: Program | None = None
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
         own = own_steps(self._work, self.step, self._compiled) | {self.step.number: binary}
@@ -65,15 +54,20 @@ class SelfCheckGrader(StepGrader):
         result, programs = self._result, self.programs()
         if programs is not None:
             self._raytrace = programs["raytrace"]
-            with self._spare.beside(partial(self._run_tests, programs["test"])):
-                for case in self.step.images:
-                    result.images.append(judge(self._gallery, programs["raytrace"], self.step, case))
+            draw = partial(self._draw, programs["raytrace"])
+            early = self._spare.start(partial(draw, self._gallery))
+            self._run_tests(programs["test"])
+            early = self._drawn_again(draw, early)
+            result.images = draw(self._gallery) if early is None or early.cancel() else early.result()
             source = self._work.source(self.step) or ""
             set_aside(result, self.step, self._work.kit.tests[self.step.id], source)
             result.messages += sum_up(result)
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
         return result
+
+    def _draw(self, program: Program, gallery: ImageGrader) -> list[ImageResult]:
+        return [judge(gallery, program, self.step, case) for case in self.step.images]
 
     @property
     def has_picture(self) -> bool:
@@ -186,10 +180,9 @@ def _check(
         work.ahead.until_interrupted(),
     ):
         work.say("building the steps")
-        spare = SpareProcessors(jobs - len(chosen), ends)
         compiled = compile_steps(work, list(steps), pool, {})
 
-        def check(step: Step) -> StepResult:
+        def check(step: Step, spare: SpareProcessors) -> StepResult:
             unseen = replace(work, out=work.folder / "unseen", say=lambda text: None)
             here = work if step in chosen else unseen
             grader = SelfCheckGrader(here, step, work.kit.limits_of(step), compiled, spare)
@@ -197,10 +190,13 @@ def _check(
                 graders.append(grader)
             return grader.check()
 
-        found.update(zip([step.id for step in chosen], answers_of(pool, check, chosen), strict=True))
+        spare, none = (SpareProcessors(amount, ends) for amount in (jobs - len(chosen), 0))
+        answers = answers_of(pool, partial(check, spare=spare), chosen)
+        found.update(zip([step.id for step in chosen], answers, strict=True))
         wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]
         rest = [step for step in steps if step.id not in found and any(step.index < other.index for other in wrong)]
-        found.update(zip([step.id for step in rest], answers_of(pool, check, rest), strict=True))
+        answers = answers_of(pool, partial(check, spare=none), rest)
+        found.update(zip([step.id for step in rest], answers, strict=True))
     for step in wrong:
         found[step.id].messages[:0] = blame(work, step, found)
     return found, graders

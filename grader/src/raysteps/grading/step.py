@@ -1,10 +1,11 @@
 """What grading a step at home and in a course have in common: it is built, and its visible tests are run."""
 
 import shutil
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor, wait
-from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
@@ -35,6 +36,25 @@ from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 from raysteps.toolchain.limits import StepLimits
 
 Programs = dict[Kind, Program]
+
+# What a machine with more processors than there are steps to grade can do meanwhile: somebody waits for one step after
+# a save.
+
+_T = TypeVar("_T")
+
+
+class SpareProcessors:
+    """So many of them; `ends` ends what they were begun with."""
+
+    def __init__(self, amount: int, ends: ExitStack) -> None:
+        self._pool = ends.enter_context(ThreadPoolExecutor(amount)) if amount > 0 else None
+        if self._pool is not None:
+            ends.callback(self._pool.shutdown, wait=False, cancel_futures=True)
+
+    def start(self, work: Callable[[], _T]) -> "Future[_T] | None":
+        """None where no processor is spare. Whoever cannot wait cancels the future, and does the work itself."""
+        return None if self._pool is None else self._pool.submit(work)
+
 
 _LEAST_ROOM = 256 << 20  # bytes, more than a build can use
 
@@ -97,6 +117,7 @@ class StepGrader:
         step: Step,
         limits: StepLimits,
         compiled: dict[str, Compiled],
+        spare: SpareProcessors,
         *,
         judged: bool = False,
     ) -> None:
@@ -105,6 +126,7 @@ class StepGrader:
         self._limits = limits
         self._compiled = compiled
         self._build = StudentBuild(work.kit, work.sandbox, work.folder)
+        self._spare = spare
         self._gallery = ImageGrader(work.kit, work.sandbox, limits, work.out)
         self._unfinished: list[str] = []
         self._result = StepResult(step.id, "not-started", 0.0, max_points(step, judged=judged), step.bonus)
@@ -178,45 +200,17 @@ class StepGrader:
         weights = test_weights(self.step, tests, still_missing(self._unfinished, tests, passed))
         for test in self._result.tests:
             test.weight = weights[test.name]
+
+    def _drawn_again(self, draw: Callable[[ImageGrader], _T], early: "Future[_T] | None") -> "Future[_T] | None":
+        """Of pictures that were begun while the tests ran: they have less time where a test was stopped, so that they
+        are drawn again, and no grade depends on what was first."""
+        if not any(test.limit for test in self._result.tests):
+            return early
+        if early is not None and not early.cancel():
+            wait([early])
+        self._gallery = replace(self._gallery, limits=self._limits, made={})
         self._gallery.stopped_in(self._result.tests)
-
-
-# What a machine with more processors than there are steps to grade can do meanwhile: somebody waits for one step after
-# a save.
-
-
-class SpareProcessors:
-    """So many of them; `ends` ends what they were begun with."""
-
-    def __init__(self, amount: int, ends: ExitStack) -> None:
-        self._pool = ends.enter_context(ThreadPoolExecutor(amount)) if amount > 0 else None
-        if self._pool is not None:
-            ends.callback(self._pool.shutdown, wait=False, cancel_futures=True)
-
-    def prepare(self, work: Callable[[], object]) -> None:
-        """Does what may be wanted later, where a processor is spare."""
-        if self._pool is not None:
-            self._pool.submit(work)
-
-    @contextmanager
-    def beside(self, work: Callable[[], None]) -> Iterator[None]:
-        """Does the work beside the block where a processor is spare, and else before it. When the block ends, it is
-        done."""
-        if self._pool is None:
-            work()
-            yield
-            return
-        begun = self._pool.submit(work)
-        try:
-            yield
-        finally:
-            is_left = begun.cancel()
-            if not is_left:
-                wait([begun])
-        if is_left:
-            work()
-        else:
-            begun.result()
+        return self._spare.start(partial(draw, self._gallery))
 
 
 # Compiles the steps of a submission, several at a time.

@@ -38,7 +38,7 @@ from raysteps.images.noise import (
     with_samples,
 )
 from raysteps.results.model import Termination, Work
-from raysteps.sandbox.task import Input, Limits, Output, Sandbox, TaskResult, Word
+from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.compile import Program, own_name
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -158,20 +158,18 @@ def _share_tested(stats: bytes) -> float | None:
     return share if 0 <= share <= _MAX_SHARE else None
 
 
-def render(
-    sandbox: Sandbox,
-    program: Program,
-    scene: Path,
-    args: tuple[str, ...],
-    limits: Limits,
-    *,
-    estimates: bool = False,
-) -> Rendered:
+def picture_task(
+    program: Program, scene: Path, args: tuple[str, ...], limits: Limits, *, estimates: bool = False
+) -> Task:
     """One picture by a student's program, which learns neither where it is nor what for."""
     words: tuple[Word, ...] = (Input(scene, _SCENE), *args, "--quiet")
     words += ("-o", Output("picture"), "--stats", Output("stats"))
     words += ("--estimates", Output("estimates")) if estimates else ()
-    ran = sandbox.run(program.task(words, limits))
+    return program.task(words, limits)
+
+
+def read_rendered(ran: TaskResult, *, estimates: bool = False) -> Rendered:
+    """What came of such a task."""
     if ran.outcome.timed_out or ran.stopped or ran.outcome.code != 0:
         return Rendered(ran, None)
     try:
@@ -181,6 +179,20 @@ def render(
         return Rendered(ran, None, str(error))
     stats = ran.outputs.get("stats", b"")[:_MAX_STATS]
     return Rendered(ran, pixels, share_tested=_share_tested(stats), work=read_work(stats), estimates=means)
+
+
+def render(
+    sandbox: Sandbox,
+    program: Program,
+    scene: Path,
+    args: tuple[str, ...],
+    limits: Limits,
+    *,
+    estimates: bool = False,
+) -> Rendered:
+    """Both at once."""
+    task = picture_task(program, scene, args, limits, estimates=estimates)
+    return read_rendered(sandbox.run(task), estimates=estimates)
 
 
 def _kept(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Path:

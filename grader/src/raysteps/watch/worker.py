@@ -12,12 +12,14 @@ import sys
 import tempfile
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from types import FrameType
 
 from raysteps.common.errors import RaystepsError, reason, reason_and_place
-from raysteps.common.platform import own_command
+from raysteps.common.platform import own_command, processor_count
 from raysteps.common.process import end_what_runs
 from raysteps.course.manifest import Step, chosen_step, earlier
 from raysteps.course.project import Project
@@ -25,7 +27,7 @@ from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader, judge
 from raysteps.grading.self_check import own_steps
-from raysteps.grading.step import GradingContext, compile_steps
+from raysteps.grading.step import GradingContext, SpareProcessors, compile_steps
 from raysteps.grading.unit_tests import run_tests, set_aside, set_pictures_aside
 from raysteps.images.compare import write_png
 from raysteps.images.render import shown_reference
@@ -112,14 +114,16 @@ class QuickLook:
             return result
         gallery = ImageGrader(self.kit, self.sandbox, limits, self.out)
         self.tell(result)
-        with ThreadPoolExecutor(1) as beside:
-            drawn = [beside.submit(judge, gallery, raytrace, self.step, case) for case in self.step.images]
+        with ExitStack() as ends:
+            spare = SpareProcessors(processor_count() - 1, ends)
+            draws = [partial(judge, gallery, raytrace, self.step, case) for case in self.step.images]
+            drawn = [(draw, spare.start(draw)) for draw in draws]
             result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits, self.say)
             gallery.stopped_in(result.tests)
             waiting = set_aside(result, self.step, self.kit.tests[self.step.id], source)
             self.tell(result)
-            for picture in drawn:
-                result.images.append(picture.result())
+            for draw, begun in drawn:
+                result.images.append(draw() if begun is None else begun.result())
                 set_pictures_aside(result.images[-1:], waiting)
                 self.tell(result)
         passed = [item.passed for items in (result.tests, result.images) for item in items]
