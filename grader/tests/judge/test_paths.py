@@ -43,8 +43,8 @@ def _draw(times: int = _TIMES, seed: int = 13) -> tuple[Numbers, Numbers]:
     return one, other
 
 
-def _right(seed: int = 13) -> Numbers:
-    u, v = _draw(seed=seed)
+def _right(seed: int = 13, times: int = _TIMES) -> Numbers:
+    u, v = _draw(times, seed)
     return _lifted(np.sqrt(u), v)
 
 
@@ -55,12 +55,36 @@ def _verdict(function: Function, inputs: Inputs, right: str, line: str) -> str:
 _DIRECTION: Inputs = {"normal": Vec(_UP), "seed": Whole(1), "times": Whole(_TIMES)}
 
 
-def _of_directions(directions: Numbers) -> str:
-    return _verdict(_FUNCTIONS["cosine_direction"], _DIRECTION, _line(_right()), _line(directions))
+def _of_directions(directions: Numbers, times: int = _TIMES) -> str:
+    inputs: Inputs = {**_DIRECTION, "times": Whole(times)}
+    return _verdict(_FUNCTIONS["cosine_direction"], inputs, _line(_right(times=times)), _line(directions))
 
 
-def test_right_directions_never_fail() -> None:
-    assert not any(_of_directions(_right(seed)) for seed in range(200))
+@pytest.mark.parametrize("times", [1, 2, 3, 8, 16, 64, 128, 256, 512, _TIMES])
+def test_right_directions_never_fail(times: int) -> None:
+    assert not any(_of_directions(_right(seed, times), times) for seed in range(200))
+
+
+@pytest.mark.parametrize("times", [2, 16, 64, 256, 512])
+@pytest.mark.parametrize("sigmas", [-5, 5])
+def test_what_chance_explains_is_not_wrong(times: int, sigmas: int) -> None:
+    """Heights that lean by as much as they do once in a million cases, to a density that has a name too."""
+    mean = 0.5 + sigmas / math.sqrt(12 * times)
+    u, v = (np.arange(times) + 0.5) / times, np.random.default_rng(13).permutation(times) / times
+    heights = u ** (1 / mean - 1) if 0 < mean < 1 else np.full(times, 0.01 if mean < 0.5 else 0.99)
+    assert _of_directions(_lifted(np.sqrt(1 - heights), v), times) == ""
+
+
+@pytest.mark.parametrize(
+    ("directions", "said"),
+    [
+        (_lifted(np.full(64, 0.05), _draw(64)[1]), "level directions come too often"),
+        (_lifted(np.cbrt(0.9 + 0.1 * _draw(64)[0]), _draw(64)[1]), "steep directions come too often"),
+        (-_right(times=64), "below the surface"),
+    ],
+)
+def test_a_few_directions_only_tell_that_they_are_wrong(directions: Numbers, said: str) -> None:
+    assert said in _of_directions(directions, 64)
 
 
 _U, _V = _draw()
@@ -95,11 +119,31 @@ _SCATTER: Inputs = {"hit": _HIT, "seed": Whole(1), "times": Whole(_TIMES)}
 
 def _samples(weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0, power: int = 0) -> str:
     """`power`: of the cosine, in the weight."""
-    directions = _right()
+    return _samples_of(_right(), weight, pdf, specular, power)
+
+
+def _samples_of(
+    directions: Numbers, weight: float = 1.0, pdf: float = 1.0, specular: float = 0.0, power: int = 0
+) -> str:
     weights = weight * directions[:, 2:] ** power * np.array((0.4, 0.2, 0.1))
     pdfs = pdf * directions[:, 2:] / math.pi
-    rows = np.concatenate([np.ones((_TIMES, 1)), directions, weights, pdfs, np.full((_TIMES, 1), specular)], axis=1)
-    return _line(rows)
+    ends = np.ones((len(directions), 1)), np.full((len(directions), 1), specular)
+    return _line(np.concatenate([ends[0], directions, weights, pdfs, ends[1]], axis=1))
+
+
+def _of_samples(directions: Numbers) -> str:
+    inputs: Inputs = {**_SCATTER, "times": Whole(len(directions))}
+    line = _samples_of(directions)
+    return _verdict(_FUNCTIONS["scatter_diffuse"], inputs, line, line)
+
+
+@pytest.mark.parametrize("times", [1, 2, 16, 64, 512])
+def test_right_samples_never_fail(times: int) -> None:
+    assert not any(_of_samples(_right(seed, times)) for seed in range(100))
+
+
+def test_a_right_sample_may_be_nearly_level() -> None:
+    assert _of_samples(_lifted(np.array([0.01]), np.array([0.3]))) == ""
 
 
 @pytest.mark.filterwarnings("error")  # of NumPy, whose words would stand on the terminal of whoever grades

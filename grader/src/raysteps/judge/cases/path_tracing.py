@@ -69,12 +69,14 @@ def _shares(directions: Numbers, normal: Vector) -> Numbers:
     return np.stack([np.minimum(x * x + y * y, 1.0), np.arctan2(y, x) / (2 * math.pi) % 1.0], axis=1)
 
 
-# Densities that are known: what of a direction's cosine is even then.
+# Densities that are known: what of a direction's cosine is even then. They and other axes only name what is wrong: near
+# to them lie right directions too, the nearer the fewer there are.
 _OTHER_DENSITIES = {
     "all directions of the half sphere come equally often": 1,
     "directions have the density of the cosine's square": 3,
 }
 _SURELY = 4.0  # standard deviations: what is told of a mistake is held to more than what is called wrong
+_TELLING = 256  # directions: fewer do not tell how they are wrong
 
 
 def _is_even(shares: Numbers, bins: int) -> bool:
@@ -86,14 +88,27 @@ _MEAN_LENGTH, _NEAR = 2 / 3, 0.04  # of the mean of all directions
 _APART = 0.98  # cosine: nearer to the normal it may be the normal itself
 
 
-def _has_another_axis(directions: Numbers, normal: Vector) -> bool:
-    """Whether they are spread as they should be, but for where they point to."""
+def _axis_problem(directions: Numbers, normal: Vector) -> str:
+    """Of directions that are wrong: whether they are spread as they should be, but for where they point to."""
     mean = directions.mean(axis=0)
     size = float(np.linalg.norm(mean))
-    if len(directions) < 2 or abs(size - _MEAN_LENGTH) > _NEAR or float(mean @ np.array(normal)) > _APART * size:
-        return False
+    if len(directions) < _TELLING or abs(size - _MEAN_LENGTH) > _NEAR or float(mean @ np.array(normal)) > _APART * size:
+        return ""
     cosines = directions @ mean / size
-    return bool((cosines > -_NEAR).all()) and abs(float((cosines**2).mean()) - 0.5) <= _NEAR
+    is_right = (cosines > -_NEAR).all() and abs(float((cosines**2).mean()) - 0.5) <= _NEAR
+    return "directions lie around another axis than the normal" if is_right else ""
+
+
+def _heights_problem(cosines: Numbers, heights: Numbers, bins: int) -> str:
+    over = "directions from steep to level, in rings that should get the same number of them"
+    if has_mean(heights, 0.5, math.sqrt(1 / 12)):
+        if is_uniform(heights, 4 * bins):
+            return ""
+        words = "some heights come more often than others"
+    else:
+        words = f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often"
+    known = (name for name, power in _OTHER_DENSITIES.items() if _is_even(np.clip(cosines, 0.0, 1.0) ** power, bins))
+    return uneven(next(known, words) if len(cosines) >= _TELLING else words, over, heights)
 
 
 def _density_problem(directions: Numbers, normal: Vector) -> str:
@@ -101,11 +116,11 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     problem = unit_problem(directions)
     if problem:
         return problem
-    if _has_another_axis(directions, normal):
-        return "directions lie around another axis than the normal"
-    is_below = directions @ np.array(normal) < -_LEVEL
+    cosines = directions @ np.array(normal)
+    is_below = cosines < -_LEVEL
     if is_below.any():
-        return off("a direction leads below the surface", is_below.mean(keepdims=True))
+        below = off("a direction leads below the surface", is_below.mean(keepdims=True))
+        return _axis_problem(directions, normal) or below
     if len(directions) < 2:
         return ""
     shares = _shares(directions, normal)
@@ -113,15 +128,10 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     heights, turns = shares[:, 0], shares[:, 1]
     if not (is_uniform(turns, 4 * bins) and has_mean(turns, 0.5, math.sqrt(1 / 12))):
         problem = "directions do not come evenly from all sides around the normal"
-        return uneven(problem, "directions around the normal, side by side", turns, goes_round=True)
-    over = "directions from steep to level, in rings that should get the same number of them"
-    for words, power in _OTHER_DENSITIES.items():
-        if _is_even(np.clip(directions @ np.array(normal), 0.0, 1.0) ** power, bins):
-            return uneven(words, over, heights)
-    if not has_mean(heights, 0.5, math.sqrt(1 / 12)):
-        return uneven(f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often", over, heights)
-    if not is_uniform(heights, 4 * bins):
-        return uneven("some heights come more often than others", over, heights)
+        askew = uneven(problem, "directions around the normal, side by side", turns, goes_round=True)
+        return _axis_problem(directions, normal) or askew
+    if problem := _heights_problem(cosines, heights, bins):
+        return problem
     return "" if is_uniform(shares, bins) else "height and side of a direction have to do with each other"
 
 
@@ -219,11 +229,11 @@ _WRONG_PDFS = {
 
 
 def _pdf_problem(pdfs: Numbers, cosines: Numbers) -> str:
-    """What is wrong with the densities of directions that are not near the horizon; where none is such, as of those
-    that are no numbers, nothing is right."""
+    """What is wrong with the densities of directions that are not near the horizon. Of what are no numbers nothing is
+    right; a few directions may all be near it."""
     steep = cosines > _STEEP
     if not steep.any():
-        return _OTHER_PDF
+        return "" if np.isfinite(cosines).all() and np.isfinite(pdfs).all() else _OTHER_PDF
     pdfs, densities = pdfs[steep], np.maximum(cosines[steep], 0.0) / math.pi
     if (np.abs(pdfs - densities) <= _DENSITY.absolute + 1e-3 * densities).all():
         return ""
