@@ -1,12 +1,27 @@
 """Any hierarchy that loses no surface and is not too dear is a right one."""
 
+import random
 import sys
+from collections.abc import Sequence
 
 import pytest
 
 from raysteps.common.errors import GraderFault
+from raysteps.judge import bvhs
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
-from raysteps.judge.bvhs import BVH, MAX_COST, MAX_LEVELS, MAX_NODES, Bvh, BvhNode, bvh_cost
+from raysteps.judge.bvhs import (
+    BVH,
+    MAX_COST,
+    MAX_ENTRIES,
+    MAX_LEVELS,
+    MAX_NODES,
+    Bvh,
+    BvhNode,
+    _around,
+    _outermost,
+    bounds,
+    bvh_cost,
+)
 from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Box, Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
@@ -171,6 +186,36 @@ def test_the_largest_tree_is_judged_in_few_calls() -> None:
         sys.setprofile(None)
     assert problem != ""
     assert calls < 400 * MAX_NODES, "it does not look at each box from each other one"
+
+
+@pytest.mark.parametrize("box", [_WEST, _BETWEEN_MIDDLES, "9 9 9 9 9 9"])
+def test_the_largest_leaf_is_looked_through_a_few_times(box: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It lists the same surfaces again and again."""
+    looked_at = 0
+
+    def around(boxes: Sequence[Box]) -> Box:
+        nonlocal looked_at
+        looked_at += len(boxes)
+        assert looked_at <= 7 * MAX_ENTRIES, "all of them at once, and without each of six"
+        return _around(boxes)
+
+    monkeypatch.setattr(bvhs, "_around", around)
+    assert "leaf" in _problem(f"bvh 1 {box} 0 {MAX_ENTRIES} {MAX_ENTRIES} {'1 0 ' * (MAX_ENTRIES // 2)}")
+    assert looked_at >= MAX_ENTRIES
+
+
+def test_only_what_reaches_farthest_is_missed() -> None:
+    """Without any other box the one around all of them is the same."""
+    rng = random.Random(9)
+
+    def box() -> Box:
+        x, y, z = (float(rng.randrange(6)) for _ in range(3))
+        return bounds(Sphere((x, y, z), float(rng.randrange(1, 4))))
+
+    for _ in range(200):
+        boxes = [box() for _ in range(rng.randrange(2, 12))]
+        for i in set(range(len(boxes))) - _outermost(boxes):
+            assert _around([*boxes[:i], *boxes[i + 1 :]]) == _around(boxes)
 
 
 def test_no_surfaces() -> None:

@@ -114,8 +114,16 @@ def _middle(box: Box) -> Box:
     return Box((x, y, z), (x, y, z))
 
 
+def _outermost(boxes: Sequence[Box]) -> set[int]:
+    """Places of those that reach farthest to one side or another: without any other one all reach just as far."""
+    places = range(len(boxes))
+    lows = {min(places, key=lambda i: boxes[i].low[axis]) for axis in range(3)}
+    return lows | {max(places, key=lambda i: boxes[i].high[axis]) for axis in range(3)}
+
+
 def _sticking_out(leaf: Box, held: Sequence[Box], margin: float) -> str:
-    """What the box of a leaf was made of, where that can be told; not all that it should hold."""
+    """What the box of a leaf was made of, where that can be told; not all that it should hold. A leaf may list very
+    many surfaces: each is looked at a few times."""
 
     def is_of(boxes: Sequence[Box]) -> bool:
         right = _around(boxes)
@@ -123,7 +131,7 @@ def _sticking_out(leaf: Box, held: Sequence[Box], margin: float) -> str:
 
     if is_of([_middle(box) for box in held]):
         return "the box of a leaf holds the middles of its surfaces, and not all of them"
-    if len(held) > 1 and any(is_of([*held[:i], *held[i + 1 :]]) for i in range(len(held))):
+    if len(held) > 1 and any(is_of([*held[:i], *held[i + 1 :]]) for i in _outermost(held)):
         return "the box of a leaf holds all of its surfaces but one"
     return "a surface sticks out of the box of its leaf"
 
