@@ -121,9 +121,14 @@ def _git(folder: Path, *words: str, stdin: str = "") -> str:
 _WHEN = datetime(2026, 9, 30, 8, 0, tzinfo=UTC)
 
 
+def _is_now(when: datetime) -> bool:
+    return abs(when - datetime.now(UTC)) < timedelta(minutes=1)
+
+
 @pytest.mark.parametrize("kind", ["sha1", "sha256"])
-def test_the_commit_says_when(tmp_path: Path, kind: str) -> None:
-    assert abs(submitted_at(tmp_path) - datetime.now(UTC)) < timedelta(minutes=1)
+@pytest.mark.parametrize("usual", ["sha1", "sha256"])
+def test_the_commit_says_when(tmp_path: Path, kind: str, usual: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GIT_DEFAULT_HASH", usual)
     _git(tmp_path, "init", "-q", f"--object-format={kind}")
     _git(tmp_path, "commit", "-q", "--allow-empty", "-m", "x")
     assert submitted_at(tmp_path) == _WHEN
@@ -132,6 +137,48 @@ def test_the_commit_says_when(tmp_path: Path, kind: str) -> None:
     assert submitted_at(tmp_path) == _WHEN, "packed"
     _git(tmp_path, "checkout", "-q", "--detach")
     assert submitted_at(tmp_path) == _WHEN, "no branch, as where a workflow has checked it out"
+
+
+def test_the_commit_is_found_where_git_finds_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    first, elsewhere, beside = tmp_path / "first", tmp_path / "store", tmp_path / "first" / "beside"
+    first.mkdir()
+    _git(first, "init", "-q", "-b", "main", f"--separate-git-dir={elsewhere}")
+    _git(first, "commit", "-q", "--allow-empty", "-m", "x")
+    assert submitted_at(first) == _WHEN, "as in a submodule"
+    _git(first, "worktree", "add", "-q", str(beside))
+    (beside / "steps").mkdir()
+    for packed in (False, True):
+        if packed:
+            _git(first, "pack-refs", "--all", "--prune")
+        assert submitted_at(beside) == _WHEN, "a work tree of its own"
+        assert submitted_at(beside / "steps" / ".." / "steps") == _WHEN, "a folder in it"
+    _git(first, "symbolic-ref", "refs/heads/other", "refs/heads/main")
+    (elsewhere / "HEAD").write_text("ref: refs/heads/other\n", encoding="ascii")
+    others = "".join(f"{number:040x} refs/tags/{number}\n" for number in range(40_000))
+    packed_references = elsewhere / "packed-refs"
+    packed_references.write_text(others + packed_references.read_text(), encoding="ascii")
+    assert submitted_at(first) == _WHEN, "a name for a name, in a long list"
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    "head", ["", "ref: refs/heads/main", "ref: refs/heads/\0", "ref: refs/heads/again", "0" * 40, "é" * 40]
+)
+def test_what_is_no_commit_is_as_old_as_the_grade(
+    tmp_path: Path, head: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert _is_now(submitted_at(tmp_path))
+    (tmp_path / ".git" / "refs" / "heads").mkdir(parents=True)
+    (tmp_path / ".git" / "refs" / "heads" / "again").write_text("ref: refs/heads/again\n", encoding="ascii")
+    (tmp_path / ".git" / "HEAD").write_text(head, encoding="utf-8")
+    assert _is_now(submitted_at(tmp_path))
+    assert capsys.readouterr().err.count("the result has the time of grading") == 2
+
+
+@pytest.mark.parametrize("place", ["nowhere", "\0", "."])
+def test_a_store_that_is_none_is_as_old_as_the_grade(tmp_path: Path, place: str) -> None:
+    (tmp_path / ".git").write_text(f"gitdir: {place}\n", encoding="ascii")
+    assert _is_now(submitted_at(tmp_path))
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the program is a shell's")

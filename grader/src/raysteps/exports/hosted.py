@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -104,9 +105,10 @@ def by_id(steps: Sequence[Step]) -> Mapping[str, Step]:
 
 
 _GIT_SECONDS = 30
-_MAX_GIT_FILE = 1 << 20
+_MAX_GIT_FILE, _MAX_PACKED = 1 << 12, 1 << 24
+_MOST_REFERENCES = 5  # that git itself follows
 _COMMIT, _SHORT = re.compile("[0-9a-f]{40}(?:[0-9a-f]{24})?"), 40
-_REFERENCE = re.compile(r"ref: (refs/\S+)")
+_REFERENCE, _ELSEWHERE = re.compile(r"ref: (refs/\S+)"), re.compile("gitdir: (.+)")
 _MADE = re.compile(r"^committer .* ([0-9]{1,12}) [+-][0-9]{4}$", re.M)
 
 Deliver = Callable[[Results, Mapping[str, Step], Path], None]
@@ -166,38 +168,60 @@ def autolab(project: Project, handin: Path, options: Options) -> int:
     return GraderFault.exit_code if _grade(project, handin, options, deliver) else 0
 
 
-def _git_file(path: Path) -> str:
-    return (read_regular(path, _MAX_GIT_FILE) or b"").decode("utf-8", "replace").strip()
+def _git_file(path: Path, cap: int = _MAX_GIT_FILE) -> str:
+    return (read_regular(path, cap) or b"").decode("utf-8", "replace").strip()
 
 
-def _checked_out(store: Path) -> str:
+def _stores(repository: Path) -> tuple[Path, Path]:
+    """Git's folder for what is checked out there or around it, and the one that its work trees share."""
+    folder = repository.resolve()
+    around = next((one for one in (folder, *folder.parents) if (one / ".git").exists()), folder)
+    store = around / ".git"
+    if store.is_file() and (elsewhere := _ELSEWHERE.fullmatch(_git_file(store))) is not None:
+        store = around / elsewhere[1]
+    return store, store / _git_file(store / "commondir")
+
+
+def _checked_out(store: Path, shared: Path) -> str:
     """The commit, as git's own files tell it; something else where they do not."""
-    head = _git_file(store / "HEAD")
-    named = _REFERENCE.fullmatch(head)
-    if named is None or ".." in head:
-        return head
-    packed = re.search(rf"^([0-9a-f]+) {re.escape(named[1])}$", _git_file(store / "packed-refs"), re.M)
-    return _git_file(store / named[1]) or (packed[1] if packed is not None else "")
+    said, packed = _git_file(store / "HEAD"), _git_file(shared / "packed-refs", _MAX_PACKED)
+    for _ in range(_MOST_REFERENCES):
+        named = _REFERENCE.fullmatch(said)
+        if named is None or ".." in said:
+            break
+        found = re.search(rf"^([0-9a-f]+) {re.escape(named[1])}$", packed, re.M)
+        said = _git_file(shared / named[1]) or (found[1] if found is not None else "")
+    return said
+
+
+def _commit_text(objects: Path, commit: str) -> str:
+    """Git reads it by a store of its own, because that of a student may name programs that it starts. The store is
+    written here, because what git makes depends on its version and on settings."""
+    kind = "[extensions]\nobjectFormat = sha256\n" if len(commit) > _SHORT else ""
+    version = 1 if kind else 0
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as place:
+        Path(place, "refs").mkdir()
+        for name, text in {
+            "HEAD": "ref: refs/heads/main\n",
+            "config": f"[core]\nrepositoryformatversion = {version}\nbare = true\n{kind}",
+            "objects/info/alternates": f"{objects.as_posix()}\n",
+        }.items():
+            write_bytes(Path(place, name), text.encode())
+        return run(["git", f"--git-dir={place}", "cat-file", "commit", commit], seconds=_GIT_SECONDS).stdout
 
 
 def submitted_at(repository: Path) -> datetime:
     """When the commit that is checked out there was made; now, where nobody knows. It is the student's clock, or
-    whatever the student told git. Git reads it by a store of its own, because that of a student may name programs that
-    it starts."""
-    store = repository.absolute() / ".git"
-    commit = _checked_out(store)
-    if not _COMMIT.fullmatch(commit):
-        return datetime.now(UTC)
-    of_kind = ["--object-format=sha256"] if len(commit) > _SHORT else []
-    try:
-        with tempfile.TemporaryDirectory(prefix="raysteps-") as place:
-            run(["git", "init", "--quiet", "--bare", "--template=", *of_kind, place], seconds=_GIT_SECONDS)
-            write_bytes(Path(place, "objects", "info", "alternates"), f"{(store / 'objects').as_posix()}\n".encode())
-            outcome = run(["git", f"--git-dir={place}", "cat-file", "commit", commit], seconds=_GIT_SECONDS)
-        made = _MADE.search(outcome.stdout.partition("\n\n")[0])
-        return datetime.fromtimestamp(int(made[1]), UTC) if made is not None else datetime.now(UTC)
-    except (OSError, ValueError, OverflowError):
-        return datetime.now(UTC)
+    whatever the student told git."""
+    with suppress(OSError, ValueError, OverflowError):  # what a student wrote may be no path and no time
+        store, shared = _stores(repository)
+        commit = _checked_out(store, shared)
+        text = _commit_text(shared / "objects", commit) if _COMMIT.fullmatch(commit) else ""
+        made = _MADE.search(text.partition("\n\n")[0])
+        if made is not None:
+            return datetime.fromtimestamp(int(made[1]), UTC)
+    print("raysteps: no commit says when this was submitted; the result has the time of grading", file=sys.stderr)
+    return datetime.now(UTC)
 
 
 def append_output(text: str, path: Path | None, variable: str = "GITHUB_OUTPUT") -> None:
