@@ -271,9 +271,26 @@ long lock_a_part() {
 long watch_for_all() { return inotify_add_watch(inotify_init(), "/usr/lib", IN_OPEN); }
 long set_times() { return utimensat(AT_FDCWD, "/dev/null", nullptr, 0); }
 
+/// Of a folder that is on the disk: this waits for all that others have written there.
+long wait_for_the_disk() { return fsync(open("/usr/lib", O_RDONLY)); }
+long wait_for_data() { return fdatasync(open("/usr/lib", O_RDONLY)); }
+long wait_for_a_part() { return sync_file_range(open("/proc/self/exe", O_RDONLY), 0, 0, SYNC_FILE_RANGE_WRITE); }
+long wait_for_a_map() {
+    void* const page = mmap(nullptr, 1, PROT_READ, MAP_SHARED, open("/proc/self/exe", O_RDONLY), 0);
+    return msync(page, 1, MS_SYNC);
+}
+long ask_for_queued_work() {
+    unsigned long queue = 0;
+    return syscall(SYS_io_setup, 1, &queue);
+}
+
 /// Which of the system's services answer that a ray tracer has no use for.
 int ask_system(const Words&) {
     const std::map<std::string, std::function<long()>> services{
+        {"disk", wait_for_the_disk},
+        {"disk for a map", wait_for_a_map},
+        {"disk for a part", wait_for_a_part},
+        {"disk for data", wait_for_data},
         {"events", [] { return static_cast<long>(epoll_create1(0)); }},
         {"keys", [] { return syscall(SYS_keyctl, 0, -3, 1); }},
         {"lease", ask_for_a_lease},
@@ -282,6 +299,7 @@ int ask_system(const Words&) {
         {"memory", [] { return static_cast<long>(memfd_create("asked", 0)); }},
         {"namespaces", [] { return static_cast<long>(unshare(CLONE_NEWNET)); }},
         {"pair", [] { int pair[2]; return static_cast<long>(socketpair(AF_UNIX, SOCK_DGRAM, 0, pair)); }},
+        {"queued work", ask_for_queued_work},
         {"socket", [] { return static_cast<long>(socket(AF_INET, SOCK_STREAM, 0)); }},
         {"times", set_times},
         {"trace", [] { return ptrace(PTRACE_TRACEME, 0, nullptr, nullptr); }},

@@ -95,9 +95,9 @@ _NEW_NAMESPACES = 0x7E020000  # CLONE_NEWNS, NEWCGROUP, NEWUTS, NEWIPC, NEWUSER,
 
 # Sockets, also two that belong to each other: no network, and nobody who listens under a name. Memory without a file or
 # a process: no limit would count it. Locks, watches and times of files that the machine has once for all tasks: by them
-# one could tell another something, and the times of a device stay. What makes all wait for the disk. Queues of events,
-# of which all processes of a user have so many together. The rest: the kernel's rarely used corners and its log, other
-# processes, keys that outlive the task.
+# one could tell another something, and the times of a device stay. What makes all wait for the disk. Queues of events
+# and of work on files, of which all processes, or all of a user, have so many together. The rest: the kernel's rarely
+# used corners and its log, other processes, keys that outlive the task.
 _X86_64 = {
     "socket": 41, "socketpair": 53, "syslog": 103, "shmget": 29, "semget": 64, "msgget": 68, "mq_open": 240,
     "memfd_create": 319, "memfd_secret": 447,
@@ -106,7 +106,8 @@ _X86_64 = {
     "io_uring_setup": 425, "open_by_handle_at": 304, "unshare": 272, "setns": 308, "mount": 165, "umount2": 166,
     "pivot_root": 155, "open_tree": 428, "move_mount": 429, "fsopen": 430,
     "flock": 73, "inotify_init": 253, "inotify_init1": 294, "fanotify_init": 300, "utime": 132, "utimes": 235,
-    "futimesat": 261, "utimensat": 280, "sync": 162, "syncfs": 306, "epoll_create": 213, "epoll_create1": 291,
+    "futimesat": 261, "utimensat": 280, "sync": 162, "syncfs": 306, "fsync": 74, "fdatasync": 75, "msync": 26,
+    "sync_file_range": 277, "epoll_create": 213, "epoll_create1": 291, "io_setup": 206,
 }  # fmt: skip
 _AARCH64 = {
     "socket": 198, "socketpair": 199, "syslog": 116, "shmget": 194, "semget": 190, "msgget": 186, "mq_open": 180,
@@ -116,7 +117,7 @@ _AARCH64 = {
     "userfaultfd": 282, "io_uring_setup": 425, "open_by_handle_at": 265, "unshare": 97, "setns": 268, "mount": 40,
     "umount2": 39, "pivot_root": 41, "open_tree": 428, "move_mount": 429, "fsopen": 430,
     "flock": 32, "inotify_init1": 26, "fanotify_init": 262, "utimensat": 88, "sync": 81, "syncfs": 267,
-    "epoll_create1": 20,
+    "fsync": 82, "fdatasync": 83, "msync": 227, "sync_file_range": 84, "epoll_create1": 20, "io_setup": 0,
 }  # fmt: skip
 _CLONE3 = 435
 # Of fcntl: copies of descriptors and their flags, and a copy that is closed on exec. Other commands lock a file, watch
