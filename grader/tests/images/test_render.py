@@ -136,15 +136,17 @@ def test_a_graded_scene_stands_alone(whole_kit: BuiltKit, tmp_path: Path) -> Non
     scene = tmp_path / "scene.pbrt"
     scene.write_text('WorldBegin\nInclude "more.pbrt"\n', encoding="utf-8")
     (tmp_path / "more.pbrt").write_text('Shape "sphere"\n', encoding="utf-8")
-    with pytest.raises(
-        GraderFault, match=r"scene\.pbrt with .* no other file beside it: .*more\.pbrt: expected a file"
-    ):
+    with pytest.raises(GraderFault, match=r"scene\.pbrt .* no other file beside it: .*more\.pbrt: expected a file"):
         reference_picture(whole_kit, scene, ("--step", "11", "--size", "8x6"))
 
 
-@pytest.mark.parametrize(("symbol", "name"), [("helper", "helper"), ("_ZN8raysteps7to_byteEf", "to_byte")])
-def test_what_the_loader_does_not_find_is_told_in_words(symbol: str, name: str) -> None:
-    said = f"hello\n/in/1/box: symbol lookup error: /in/0/steps/libstep-07.so: undefined symbol: {symbol}\n"
+@pytest.mark.parametrize(
+    ("symbol", "name"),
+    [("helper", "helper"), ("_ZN8raysteps7to_byteEf", "to_byte"), ("pow, version GLIBC_9.9", "pow")],
+)
+@pytest.mark.parametrize("folder", ["/in/0", "/home/ann lee/kit"])
+def test_what_the_loader_does_not_find_is_told_in_words(folder: str, symbol: str, name: str) -> None:
+    said = f"hello\n/in/1/box: symbol lookup error: {folder}/steps/libstep-07.so: undefined symbol: {symbol}\n"
     words = exit_words(Outcome(127, False, "", said, 0.1))
     assert words == (f"exit code 127: the program asks for {name}, which is defined nowhere that it could see")
     assert exit_words(Outcome(2, False, "", "raytrace: no such scene\n", 0.1)) == "exit code 2: raytrace: no such scene"

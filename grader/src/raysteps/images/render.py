@@ -355,7 +355,7 @@ def not_in_time(what: str, seconds: float, *, sooner: bool) -> str:
 
 
 # As the loader says it of a function that is no C++, which the linker leaves to the loader; a source can hide it there.
-_NOWHERE = re.compile(r"symbol lookup error: \S+: undefined symbol: (\S+)$")
+_NOWHERE = re.compile(r"symbol lookup error: .+?: undefined symbol: ([^\s,]+)")
 
 
 def exit_words(outcome: Outcome) -> str:
