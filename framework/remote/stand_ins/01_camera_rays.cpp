@@ -8,8 +8,8 @@ using remote::FunctionId;
 
 [[maybe_unused]] static const bool asked = remote::stand_in(FunctionId::point_at);
 
-/// A box does not ask for what the handout says in these words: many a test of a triangle wants it before it says that
-/// there is no hit.
+/// Worked out in the box as the handout writes it, for many a test of a triangle asks for it before it says that there
+/// is no hit.
 glm::vec3 point_at(const Ray& ray, float distance) {
     if (remote::Session::current().end() == remote::Session::End::box) {
         return ray.origin + distance * ray.direction;
