@@ -136,6 +136,33 @@ def test_the_same_numbers_are_the_same_answer() -> None:
     )
 
 
+def test_a_turned_direction_is_worth_the_same_where_nothing_should_be_found() -> None:
+    """The whole line is wrong then: a word and a flag in it have no sign, and what is the same beside a direction that
+    is turned as a whole takes nothing from it."""
+    function = functions_of("02")["Sphere::intersect"]
+    case = Case(function.name, "any", {})
+    rest = "0.5 0.25 0.125 0.5 0.5 10 0.5 1.5"
+
+    def similarity(right: str, *mine: str) -> float:
+        position, normal, distance = mine
+        said, other = (
+            ObservedAnswers(f"hit {place} {rest} {up} 0 0 -1 {far} 1", "it is wrong", plainly_wrong=True)
+            for place, up, far in (("3 4 5", "0.6 -0.64 0.48", "7"), (position, normal, distance))
+        )
+        return answer_similarity(function, case, right, said, other)
+
+    right_hit = f"hit 1 2 3 {rest} 0.8 0.36 0.48 0 0 -1 5 1"
+    for right in ("miss", right_hit):
+        as_it_is = similarity(right, "3 4 5", "0.6 -0.64 0.48", "7")
+        turned = similarity(right, "3 4 5", "-0.6 0.64 -0.48", "7")
+        in_part = similarity(right, "3 4 5", "0.6 0.64 0.48", "7")
+        lost = similarity(right, "3 4 5", "0.6 -0.1 0.48", "7")
+        assert as_it_is == 1
+        assert 0.85 < turned < 1, "the wrong end of a sphere, beside a distance that is the same"
+        assert in_part == lost, right
+    assert similarity("miss", "-3 -4 -5", "-0.6 0.64 -0.48", "-7") > 0.6
+
+
 @pytest.mark.parametrize(
     "line", ["", "threw up", "4 5", "4 5 six", "1e999 -inf nan", "\x00", "#" + "0" * 32, "9" * 5000]
 )
@@ -281,6 +308,31 @@ def test_a_mistake_that_explains_more_at_a_second_look_is_said_once() -> None:
     evidence = replace(_evidence({"mirror": half, "specular": half}), pictures={"lit": _picture(mine, reference)})
     (named,) = name_mistakes([match(_mutant("up"), known, evidence)])
     assert set(named.explains) == {"mirror", "specular"}
+
+
+def test_a_mistake_that_is_named_again_takes_no_place_of_another() -> None:
+    """Three are said; its picture keeps the first from explaining everything at once. What cannot be told from it at
+    the second look only is not said."""
+    reference = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
+    mine, drawn = reference.copy(), reference.copy()
+    mine[:15] //= 2
+    drawn[15:] //= 2
+    half, one, other = (_wrong(line, *range(30)) for line in ("4 5 6", "7 8 9", "9 9 9"))
+    evidence = _evidence({"mirror": half, "specular": half, "diffuse": one, "shade": other})
+    evidence = replace(evidence, pictures={"lit": _picture(mine, reference)})
+    known = [
+        (_mutant("up"), {"mirror": _wrong("4 5 6", *range(38)), "specular": half}, {"lit": drawn}),
+        (_mutant("first", "diffuse"), {"diffuse": _wrong("7 8 9", *range(34))}, {"lit": drawn}),
+        (_mutant("last", "shade"), {"shade": _wrong("9 9 9", *range(34))}, {"lit": drawn}),
+        (_mutant("so too"), {"mirror": _wrong("4 5 6", *range(38))}, {"lit": drawn}),
+    ]
+    named = name_mistakes([match(mutant, MutantFingerprint(said, drew), evidence) for mutant, said, drew in known])
+    assert {one.mutant.id: set(one.explains) for one in named} == {
+        "up": {"mirror", "specular"},
+        "first": {"diffuse"},
+        "last": {"shade"},
+    }
+    assert all(not one.alike for one in named)
 
 
 def test_the_same_answer_to_everything_is_not_two_mistakes() -> None:

@@ -219,6 +219,8 @@ _WORDS_ONLY = 0.25  # of the weight of an answer with the same numbers
 _TELLING_WORDS = 0.45  # where they say how it is wrong, and not only that it is: too little to name a mistake by
 _SAME_WORDS_OF_CHANCE = 0.9  # of answers by chance: whoever turns a frame otherwise has other numbers for one mistake
 _TURNED = 0.8  # of the weight of the same number
+_DIRECTION = 3  # numbers in a row that are turned: a whole direction, whatever stands beside it
+_FLAGS = frozenset({"0", "1"})
 _MOSTLY = 0.6
 
 
@@ -238,8 +240,8 @@ def _close(one: str, other: str) -> bool:
 def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
     """Of the words that are wrong in one of the two, the share in which they are the same. Opposite signs count less:
     who takes the wrong end of a sphere turns its normal in one way or the other. Without any word that is the same they
-    count nothing: light that is taken away is not light that is added. Nor beside a number that has the same sign: a
-    direction that is turned as a whole has none."""
+    count nothing: light that is taken away is not light that is added. Nor beside a number that keeps its sign, as of a
+    direction that is turned in part, where fewer than three are turned in a row."""
     rights, mistakes, mines = right_line.split(), mistake_line.split(), my_line.split()
     if not len(mistakes) == len(mines) <= _MAX_WORDS:
         return 0.0
@@ -255,12 +257,27 @@ def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
 
 def _worth(run: Sequence[tuple[str, str]]) -> list[float]:
     """Of words that stand side by side, and are all wrong."""
-    has_same_sign = any(_close(*pair) and not _is_turned(*pair) for pair in run)
-    turned = 0.0 if has_same_sign else _TURNED
-    return [
-        1.0 if _close(*pair) else _TURNED if set(pair) == {"0", "1"} else turned if _is_turned(*pair) else 0.0
-        for pair in run
-    ]
+    has_same_sign = any(_keeps_sign(*pair) for pair in run)
+    worth: list[float] = []
+    for is_turned, stretch in groupby(run, lambda pair: _is_turned(*pair)):
+        pairs = list(stretch)
+        counts = is_turned and (len(pairs) >= _DIRECTION or not has_same_sign)
+        turned = _TURNED if counts else 0.0
+        worth += [1.0 if _close(*pair) else _TURNED if set(pair) == _FLAGS else turned for pair in pairs]
+    return worth
+
+
+def _keeps_sign(mistake: str, mine: str) -> bool:
+    """Whether it is the same number. A word is none, and what may be a flag says nothing of signs."""
+    return _is_number(mine) and mine not in _FLAGS and _close(mistake, mine) and not _is_turned(mistake, mine)
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def _is_turned(mistake: str, mine: str) -> bool:

@@ -1,7 +1,7 @@
 """How well a known mistake explains what was seen, function by function and picture by picture."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import combinations
 
 from raysteps.course.mutants import Mutant
@@ -257,6 +257,14 @@ class NamedMistake:
     alike: tuple[Mutant, ...]
     seen: bool = True
 
+    def and_again(self, other: "NamedMistake") -> "NamedMistake":
+        """With all that it explains: what its pictures tell may explain more at a second look. Those that explain it
+        as well explain both."""
+        explains = dict.fromkeys((*self.explains, *other.explains))
+        ids = {mutant.id for mutant in other.alike}
+        alike = tuple(mutant for mutant in self.alike if mutant.id in ids)
+        return NamedMistake(self.mutant, tuple(explains), alike, self.seen or other.seen)
+
     def diagnosis(self) -> Diagnosis:
         mutant = self.mutant
         alike = list(dict.fromkeys(other.name for other in self.alike if other.name != mutant.name))
@@ -290,11 +298,12 @@ def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
     """The likeliest first. `matches`: of all known mistakes, in the catalogue's order."""
     open_ = _Open({name for match in matches for name in (*match.functions, *match.pictures)}, set())
     matches = [one for one in matches if not (one.right_apart or one.is_refuted())]
-    named: list[NamedMistake] = []
-    while len(named) < _MAX:
+    found: dict[str, NamedMistake] = {}
+    while True:
         worths = [(match, open_.worth(match)) for match in matches]
         best, most = max(worths, key=lambda pair: pair[1], default=(None, 0.0))
-        if best is None or most <= 0:
+        is_known = best is not None and best.mutant.id in found
+        if best is None or most <= 0 or (len(found) == _MAX and not is_known):
             break
         explained = open_.explained_by(best)
         alike = [
@@ -302,23 +311,12 @@ def name_mistakes(matches: Sequence[Match]) -> list[NamedMistake]:
             for match, worth in worths
             if match is not best and most - worth <= _HAIR and open_.explained_by(match).keys() == explained.keys()
         ]
-        named.append(NamedMistake(best.mutant, tuple(explained), tuple(alike), best.is_seen()))
+        one = NamedMistake(best.mutant, tuple(explained), tuple(alike), best.is_seen())
+        found[best.mutant.id] = found[best.mutant.id].and_again(one) if is_known else one
         open_.names -= explained.keys()
         open_.told |= best.spoilt
-    named = _each_once(named)
-    known = {one.mutant.id for one in named}
-    pairs = [one for one in _pairs(matches, open_.names) if one.mutant.id not in known]
-    return named + pairs[: _MAX - len(named)]
-
-
-def _each_once(named: Sequence[NamedMistake]) -> list[NamedMistake]:
-    """With all that it explains: what its pictures tell may explain more at a second look."""
-    found: dict[str, NamedMistake] = {}
-    for one in named:
-        first = found.get(one.mutant.id, one)
-        explains = dict.fromkeys((*first.explains, *one.explains))
-        found[one.mutant.id] = replace(first, explains=tuple(explains))
-    return list(found.values())
+    pairs = [one for one in _pairs(matches, open_.names) if one.mutant.id not in found]
+    return [*found.values(), *pairs[: _MAX - len(found)]]
 
 
 def _pairs(matches: Sequence[Match], open_: Collection[str]) -> list[NamedMistake]:
