@@ -56,6 +56,8 @@ def _assert_costs_itself_only(kit: BuiltKit, step: Step, function: str, result: 
     failed = [test.name for test in result.tests if not test.passed]
     tests = kit.tests[step.id]
     assert failed, "a stub passes no test of its own"
+    passed = {test.name for test in result.tests if test.passed}
+    assert still_missing([function], tests, passed) == [function], "whatever it passes by luck"
     assert [name for name in failed if function not in tests[name]] == []
     assert 0 < result.points < result.max
 
@@ -214,6 +216,14 @@ def test_a_line_that_was_put_in_where_a_function_is_right_moves_no_weight() -> N
     assert still_missing(["to_byte", "tone_map"], tests, {"b"}) == ["tone_map"]
     assert still_missing(["to_byte"], {"both": tests["both"]}, {"both"}) == [], "it has no test of its own"
     assert still_missing(["to_byte"], {"both": tests["both"]}, set()) == ["to_byte"]
+
+
+def test_nor_does_one_where_a_test_is_failed_on_purpose() -> None:
+    own = {f"own {number}": ["to_byte"] for number in range(4)}
+    tests = {**own, "both": ["tone_map", "to_byte"]}
+    assert still_missing(["to_byte"], tests, {"own 0", "own 1", "own 2"}) == []
+    assert still_missing(["to_byte"], tests, {"own 0", "own 1"}) == []
+    assert still_missing(["to_byte"], tests, {"own 0", "both"}) == ["to_byte"], "a stub that is right by luck"
 
 
 def test_such_a_box_holds_no_reference(kit: BuiltKit, tmp_path: Path) -> None:
