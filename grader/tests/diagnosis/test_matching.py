@@ -322,8 +322,8 @@ def test_a_mistake_that_is_named_again_takes_no_place_of_another() -> None:
     evidence = replace(evidence, pictures={"lit": _picture(mine, reference)})
     known = [
         (_mutant("up"), {"mirror": _wrong("4 5 6", *range(38)), "specular": half}, {"lit": drawn}),
-        (_mutant("first", "diffuse"), {"diffuse": _wrong("7 8 9", *range(34))}, {"lit": drawn}),
-        (_mutant("last", "shade"), {"shade": _wrong("9 9 9", *range(34))}, {"lit": drawn}),
+        (_mutant("first", "diffuse"), {"diffuse": _wrong("7 8 9", *range(40))}, {"lit": drawn}),
+        (_mutant("last", "shade"), {"shade": _wrong("9 9 9", *range(40))}, {"lit": drawn}),
         (_mutant("so too"), {"mirror": _wrong("4 5 6", *range(38))}, {"lit": drawn}),
     ]
     named = name_mistakes([match(mutant, MutantFingerprint(said, drew), evidence) for mutant, said, drew in known])
