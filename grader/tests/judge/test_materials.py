@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from raysteps.judge.cases.materials import FUNCTIONS
-from raysteps.judge.cases.microfacets import dielectric
+from raysteps.judge.cases.microfacets import dielectric, visible_problem
 from raysteps.judge.functions import Case
 from raysteps.judge.protocol import Fill, Hit, Inputs, Real, Vec, Whole, text
 from raysteps.judge.statistics import Numbers
@@ -37,6 +37,11 @@ def _seen(seed: int = 14, alpha: float = _ALPHA, view: Numbers = _VIEW, turn: fl
     angle = 2 * math.pi * turn * u
     cap = np.stack([across * np.cos(angle), across * np.sin(angle), height], axis=1)
     return _unit((cap + seen) * stretch)
+
+
+def _left_on_the_half_sphere() -> Numbers:
+    """Seen rightly, and not brought back from where the surface is stretched."""
+    return _unit(_seen() / _STRETCH)
 
 
 def _all_of_them() -> Numbers:
@@ -78,6 +83,15 @@ def test_right_normals_never_fail() -> None:
 )
 def test_each_wrong_density_has_its_words(normals: Numbers, said: str) -> None:
     assert said in _of_normals(np.asarray(normals))
+
+
+def test_what_normals_are_instead_is_said_of_many_only() -> None:
+    """A smallest case has a few, of which anything might be said."""
+    normals = _left_on_the_half_sphere()
+    assert "those of the half sphere" in visible_problem(normals, (_VX, _VY, _VZ), _ALPHA)
+    few = visible_problem(np.repeat(normals[:1], 64, axis=0), (_VX, _VY, _VZ), _ALPHA)
+    assert few
+    assert "half sphere" not in few
 
 
 # Samples, from nearly above: hardly any are lost.

@@ -48,6 +48,7 @@ def dielectric(cosines: Numbers, eta: float) -> Numbers:
 
 _FEW, _MANY = 8, 16
 _MANY_NORMALS = 16_384
+_TELLING = 512  # of fewer it is not said what they may be instead
 _ASKEW = "microfacets do not lean evenly to both sides of the view"
 _NOT_AS_SEEN = "microfacets do not come as often as they are seen"
 _ACROSS = "microfacets from one side of the view to the other, in strips that are seen equally large"
@@ -85,6 +86,8 @@ def _shares_of_tips(tips: Numbers, seen: Numbers, across: Numbers, up: Numbers) 
 
 def _are_of_half_sphere(normals: Numbers, view: Numbers, alpha: float, bins: int) -> bool:
     """Whether they would be right if the surface stayed stretched."""
+    if len(normals) < _TELLING:
+        return False
     shares = _shares_of_tips(normals, *_stretched(view, alpha)[1:])
     return is_uniform(shares[:, 0], 4 * bins) and is_uniform(shares[:, 1], 4 * bins)
 
