@@ -154,13 +154,20 @@ def _eye(draw: RandomSource, normal: Vector, brightest: Vector, low: float, high
     return draw.until(lambda eye: dot(eye, normal) > _SEEN, lambda: draw.above(brightest, low, high))
 
 
+def _eye_in_highlight(draw: RandomSource, normal: Vector, brightest: Vector, low: float, high: float) -> Vector:
+    """Likewise; one below is turned up, which brings it nearer to the brightest place."""
+    eye = draw.above(brightest, low, high)
+    height = dot(eye, normal)
+    return eye if height > _SEEN else unit(add(eye, normal, 2 * (_SEEN - height)))
+
+
 def _highlight(draw: RandomSource, *, shine: float | None = None) -> Inputs:
     """The eye is near the mirrored light."""
     normal = draw.direction()
     to_light = draw.above(normal, 0.1, 0.95)
     brightest = _brightest(to_light, normal)
     fill = replace(draw.fill(), shine=draw.real(2, 12) if shine is None else shine)
-    return _specular(draw, fill, to_light, normal, _eye(draw, normal, brightest, 0.75, 0.995))
+    return _specular(draw, fill, to_light, normal, _eye_in_highlight(draw, normal, brightest, 0.75, 0.995))
 
 
 def _no_highlight(draw: RandomSource) -> Inputs:
@@ -202,7 +209,7 @@ def _very_high_shine(draw: RandomSource) -> Inputs:
     to_light = draw.above(normal, 0.1, 0.95)
     brightest = _brightest(to_light, normal)
     fill = replace(draw.fill(), shine=draw.real(100, 400))
-    return _specular(draw, fill, to_light, normal, _eye(draw, normal, brightest, 0.993, 1.0))
+    return _specular(draw, fill, to_light, normal, _eye_in_highlight(draw, normal, brightest, 0.993, 1.0))
 
 
 def _light_on_horizon(draw: RandomSource) -> Inputs:
