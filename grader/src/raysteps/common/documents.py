@@ -78,9 +78,13 @@ def _children(
         yield from ((told[at], value, f"{place}[{at}]") for at, value in enumerate(found))
 
 
+_WITHOUT_KEYS = (str, int, float, type(None))
+
+
 def _check_keys(told: object, found: object, place: str, *, complete: bool, extra: bool) -> None:
     for child in _children(told, found, place, complete=complete, extra=extra):
-        _check_keys(*child, complete=complete, extra=extra)
+        if not isinstance(child[1], _WITHOUT_KEYS):
+            _check_keys(*child, complete=complete, extra=extra)
 
 
 def convert(document: object, kind: type[T], *, complete: bool = False, extra: bool = False) -> T:
