@@ -222,6 +222,7 @@ _TURNED = 0.8  # of the weight of the same number
 _DIRECTION = 3  # numbers in a row that are turned: a whole direction, whatever stands beside it
 _FLAGS = frozenset({"0", "1"})
 _MOSTLY = 0.6
+_REMEMBERED = 1 << 14  # answers: each is compared with those of all mistakes, and these with those of all students
 
 
 def _close(one: str, other: str) -> bool:
@@ -237,17 +238,25 @@ def _close(one: str, other: str) -> bool:
     return abs(a - b) <= _ABSOLUTE + _RELATIVE * max(abs(a), abs(b)) < math.inf
 
 
+@lru_cache(maxsize=_REMEMBERED)
+def _wrong_words(right_line: str, line: str) -> tuple[bool, ...]:
+    """Which words of an answer are not the reference's; all of them where it has more words or fewer."""
+    rights, words = right_line.split(), line.split()
+    if len(rights) != len(words):
+        return (True,) * len(words)
+    return tuple(not _close(*pair) for pair in zip(rights, words, strict=True))
+
+
 def _agreement(right_line: str, mistake_line: str, my_line: str) -> float:
     """Of the words that are wrong in one of the two, the share in which they are the same. Opposite signs count less:
     who takes the wrong end of a sphere turns its normal in one way or the other. Without any word that is the same they
     count nothing: light that is taken away is not light that is added. Nor beside a number that keeps its sign, as of a
     direction that is turned in part, where fewer than three are turned in a row."""
-    rights, mistakes, mines = right_line.split(), mistake_line.split(), my_line.split()
+    mistakes, mines = mistake_line.split(), my_line.split()
     if not len(mistakes) == len(mines) <= _MAX_WORDS:
         return 0.0
-    rights = rights if len(rights) == len(mines) else [""] * len(mines)
-    words = zip(rights, mistakes, mines, strict=True)
-    wrong = [not (_close(right, mistake) and _close(right, own)) for right, mistake, own in words]
+    both = zip(_wrong_words(right_line, mistake_line), _wrong_words(right_line, my_line), strict=True)
+    wrong = [theirs or mine for theirs, mine in both]
     runs = groupby(range(len(mines)), key=wrong.__getitem__)
     worth = [one for is_wrong, run in runs if is_wrong for one in _worth([(mistakes[i], mines[i]) for i in run])]
     if not worth:
@@ -285,7 +294,7 @@ def _is_turned(mistake: str, mine: str) -> bool:
     return _close(mistake.removeprefix("-") if mistake.startswith("-") else f"-{mistake}", mine)
 
 
-@lru_cache(maxsize=1 << 12)  # one answer is compared with those of all mistakes
+@lru_cache(maxsize=_REMEMBERED)
 def _parsed(answer: Answer[Any], line: str) -> list[Any]:
     """The value; none where it cannot be read."""
     try:
