@@ -108,6 +108,8 @@ TEST_CASE("radical_inverse: digits mirrored at the point", "[10-sampling][radica
     CHECK(radical_inverse(3, 5) == about(7.0 / 9.0));
     INFO("base 10: 4711 becomes 0.1174");
     CHECK(radical_inverse(10, 4711) == about(0.1174));
+    INFO("base 3: 243 is 100000 and becomes 0.000001; a digit that no rounding may lose");
+    CHECK(radical_inverse(3, 243) * 729.0F == about(1.0));
 }
 
 TEST_CASE("radical_inverse: from 0, and always below 1", "[10-sampling][radical_inverse]") {
@@ -236,6 +238,9 @@ TEST_CASE("reconstruct: nothing to add up", "[10-sampling][reconstruct]") {
     INFO("the weights add up to 0: black, and no division by it");
     CHECK_THAT(reconstruct(beyond, Filter::tent), IsNear({0.0F, 0.0F, 0.0F}));
     CHECK_THAT(reconstruct({}, Filter::box), IsNear({0.0F, 0.0F, 0.0F}));
+    INFO("a weight of 0.005 is little, and not 0");
+    const std::array<PixelSample, 1> rim{PixelSample{{0.9F, -0.95F}, {2.0F, 3.0F, 4.0F}}};
+    CHECK_THAT(reconstruct(rim, Filter::tent), IsNear({2.0F, 3.0F, 4.0F}));
 }
 
 TEST_CASE("reconstruct: weights that add up to less than 0", "[10-sampling][reconstruct]") {

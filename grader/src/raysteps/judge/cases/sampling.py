@@ -22,7 +22,7 @@ from raysteps.judge.answers import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text, whole_of
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_uniform, many_alike, uneven
+from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_uniform, many_alike, off, uneven
 
 # Stratified samples. Every order of the points is right, and every way to draw them: so no answer is compared with the
 # reference's, but each is tested for what the contract promises. The worker asks `times` times, each time with another
@@ -94,6 +94,7 @@ _SQUARES = "the points of different squares have to do with each other"
 _STREAMS = "points are the same for different streams"
 _SOME_SQUARES = "some squares have their point always at the same place"
 _FEW_PLACES = "points lie at a few places of their squares only"
+_ON_A_LINE = "x of the points is at chance in their squares, or y, and the other one is not"
 _ROUNDING = 1e-6  # of a place in a square: float knows it no better
 _SHARED = 1e-4  # of a square: so near are places that one random number has made
 
@@ -136,6 +137,8 @@ def _problem_of_squares(shares: Numbers) -> str:
     copied = first(*(_copies(in_time[..., axis], shares) for axis in range(2) if _varies(in_time[..., axis])))
     if copied:
         return copied
+    if _varies(in_time[..., 0]) != _varies(in_time[..., 1]):
+        return _ON_A_LINE
     points = shares.reshape(-1, 2)
     bins = _MANY if len(points) >= _MANY_POINTS else _FEW
     for axis, way in zip("xy", points.T, strict=True):
@@ -181,7 +184,7 @@ def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     if (every < 0).any():
         return "a point lies outside of the unit square, below 0"
     if (every > 1).any():
-        return f"a point lies outside of the unit square, {'far ' if (every > _FAR).any() else ''}beyond 1"
+        return off(f"a point lies outside of the unit square, {'far ' if (every > _FAR).any() else ''}beyond 1", every)
     shares = _in_squares(every[:-1], side)
     if shares is None:
         return _empty_squares(every[:-1], side)
@@ -234,6 +237,12 @@ def _next_to_one(draw: RandomSource) -> Inputs:
     return _inverse(base, base ** draw.whole(digits - 1, digits) - 1)
 
 
+def _power(draw: RandomSource) -> Inputs:
+    """Its digits are a 1 and zeros. Who counts digits by a logarithm finds one too few, if not of every base."""
+    base, most = ((3, 9), (7, 5), (10, 4), (17, 3))[draw.whole(0, 3)]
+    return _inverse(base, base ** draw.whole(2, most))
+
+
 _RADICAL_INVERSE = Function(
     "radical_inverse",
     Answer(lambda tokens: tokens.real(), words_of_number, _share_problem),
@@ -245,6 +254,7 @@ _RADICAL_INVERSE = Function(
         Group("a large index", lambda d: _inverse(_base(d), d.whole(10_000_000, 1_000_000_000))),
         Group("more than an int holds", lambda d: _inverse(_base(d), d.whole(1 << 31, (1 << 32) - 1))),
         Group("close to 1", _next_to_one, exact=True),
+        Group("a power of the base", _power, exact=True),
     ),
 )
 
@@ -387,6 +397,16 @@ def _below_zero(draw: RandomSource) -> Inputs:
     return {"filter": _Filter(_MITCHELL_KIND), "samples": PixelSamples(samples)}
 
 
+def _little_weight(draw: RandomSource) -> Inputs:
+    """All samples lie at the rim of the tent. Their mean is light like any other, however little they count."""
+
+    def rim() -> float:
+        return draw.sign() * draw.real(0.9, 0.96)
+
+    samples = tuple(PixelSample((rim(), rim()), draw.color(0.1, 2.0)) for _ in range(draw.whole(1, 2)))
+    return {"filter": _Filter(_TENT_KIND), "samples": PixelSamples(samples)}
+
+
 _COLOR = Answer(
     read_vector,
     words_of_vector,
@@ -406,6 +426,7 @@ _RECONSTRUCT = Function(
         Group("nothing counts", _of_no_weight, exact=True),
         Group("some are black", _black_ones),
         Group("the first ones do not count", _first_ones_do_not_count),
+        Group("little weight", _little_weight),
     ),
 )
 
