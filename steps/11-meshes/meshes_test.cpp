@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "testing/testing.hpp"
@@ -132,6 +133,9 @@ TEST_CASE("shading_normal: where nothing is left", "[11-meshes][shading_normal]"
     face[1].normal = {-1.0F, 0.0F, 0.0F};
     INFO("normals that cancel each other out, as at a sharp edge: the flat triangle's normal");
     CHECK_THAT(shading_normal(face, {0.5F, 0.5F, 0.0F}, hit_from({0.0F, 0.0F, -1.0F})), IsNear(k_up));
+    INFO("a blend that points straight along the ray, of which nothing is left at right angles to it");
+    face[2].normal = {0.0F, 0.0F, -1.0F};
+    CHECK_THAT(shading_normal(face, {0.25F, 0.25F, 0.5F}, hit_from({0.0F, 0.0F, -1.0F})), IsNear(k_up));
 }
 
 TEST_CASE("curved_position: lifted off the flat triangle", "[11-meshes][curved_position]") {
@@ -263,6 +267,10 @@ TEST_CASE("texels_across: straight down, at a slant, and nothing to look up", "[
     CHECK(texels_across(face, {64.0F, 64.0F}, hit_from({0.6F, 0.0F, -0.8F}, 10.0F), 0.01F) == about(2.0));
     INFO("a texture that is 4 times as wide has twice as many texels to a length, on average of both ways");
     CHECK(texels_across(face, {256.0F, 64.0F}, hit_from({0.0F, 0.0F, -1.0F}, 10.0F), 0.01F) == about(3.2));
+    INFO("a texture that lies mirrored on the triangle has as many texels");
+    MeshFace mirrored = face;
+    std::swap(mirrored[1].uv, mirrored[2].uv);
+    CHECK(texels_across(mirrored, {64.0F, 64.0F}, hit_from({0.0F, 0.0F, -1.0F}, 10.0F), 0.01F) == about(1.6));
     INFO("a triangle without an area in the texture");
     MeshFace point = face;
     point[1].uv = point[2].uv = point[0].uv;
