@@ -311,6 +311,11 @@ TEST_CASE("sample_disk: on the disk, with its normal and density", "[12-soft-lig
     });
     INFO("it shines down: nothing is seen from above");
     CHECK(sample_disk(k_disk, {2.0F, 6.0F, -1.0F}, {0.3F, 0.6F}).pdf == 0.0F);
+    INFO("a disk at a slant: the way from its centre to a point is at a right angle to the normal");
+    const DiskLight slanted{{0.0F, 4.0F, 0.0F}, {0.6F, 0.0F, 0.8F}, 0.5F};
+    with_corners([&](const glm::vec2& u) {
+        CHECK(glm::dot(sample_disk(slanted, from, u).position - slanted.center, slanted.normal) == about(0.0));
+    });
 }
 
 TEST_CASE("sample_disk: equal areas get equally many", "[12-soft-light][sample_disk]") {
@@ -435,6 +440,9 @@ TEST_CASE("lens_ray: all rays meet in the plane of focus", "[12-soft-light][lens
         CHECK_THAT(ray.origin + (-1.0F - ray.origin.z) / ray.direction.z * ray.direction,
                    IsNear({4.0F, 2.0F, -1.0F}, 1e-3F));
     });
+    INFO("and come from different points of the lens");
+    CHECK(lens_ray(k_camera, k_frame, k_slanted, {0.9F, 0.1F}).origin !=
+          lens_ray(k_camera, k_frame, k_slanted, {0.4F, 0.6F}).origin);
 }
 
 TEST_CASE("lens_ray: all points of the lens are equally likely", "[12-soft-light][lens_ray]") {
@@ -483,4 +491,7 @@ TEST_CASE("lens_ray: the handout's worked example", "[12-soft-light][lens_ray]")
         INFO("sharp at (3, 0, -4)");
         CHECK_THAT(ray.direction, IsParallelTo(glm::vec3(3.0F, 0.0F, -4.0F) - ray.origin));
     });
+    INFO("from different points of the lens");
+    CHECK(lens_ray(camera, k_frame, middle, {0.9F, 0.1F}).origin !=
+          lens_ray(camera, k_frame, middle, {0.4F, 0.6F}).origin);
 }

@@ -40,6 +40,10 @@ _DISKS: dict[str, tuple[_Mapping, str]] = {
     "plain radius": (lambda x, y: _disk(x, y), "too many points lie near the middle"),
     "cube root": (lambda x, y: _disk(np.cbrt(x), y), "too many points lie near the rim"),
     "half a turn": (lambda x, y: _disk(np.sqrt(x), y / 2), "some sides get more points than others"),
+    "columns": (
+        lambda x, y: np.stack([2 * x - 1, (2 * y - 1) * np.sqrt(1 - (2 * x - 1) ** 2)], axis=1),
+        "too many points lie near the rim, and some sides get more points than others",
+    ),
     "a spiral": (lambda x, _: _disk(np.sqrt(x), x), "the two random numbers have to do with each other"),
     "a square": (lambda x, y: np.stack([2 * x - 1, 2 * y - 1], axis=1), "a point lies outside of the disk"),
     "no number": (lambda x, y: np.stack([x / 0, y], axis=1), "a point is infinite or NaN"),
@@ -243,7 +247,7 @@ def test_rays_of_a_lens_are_told_by_where_they_meet(share: float, aside: float, 
     ("reach", "beside", "said"),
     [
         (0.5, False, "a point lies off the sphere, though in a direction in which the sphere is seen"),
-        (0.5, True, "a point lies off the sphere, and so do all others"),
+        (0.5, True, "a point lies off the sphere, and so do all others, behind who looks at it"),
         (-1.0, False, "all points lie on the side of the sphere that is not seen"),
     ],
 )

@@ -143,13 +143,27 @@ def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
     bins = 32 if len(shares) >= _VERY_MANY else 8
     along, around = shares[:, 0], shares[:, 1]
     deviation = math.sqrt(1 / 12)
+    problems = []
     if not has_mean(along, 0.5, deviation):
-        return uneven(places.low if float(along.mean()) < 0.5 else places.high, places.way, along)
-    if not is_uniform(along, 2 * bins):
-        return uneven(places.uneven, places.way, along)
+        problems.append(places.low if float(along.mean()) < 0.5 else places.high)
+    elif not is_uniform(along, 2 * bins):
+        problems.append(places.uneven)
+    is_along = bool(problems)
     if not (has_mean(around, 0.5, deviation) and is_uniform(around, 2 * bins)):
-        return uneven(places.around, places.way_around, around, goes_round=places is not _TRIANGLE)
-    return "" if is_uniform(shares, bins) else "the two random numbers have to do with each other"
+        problems.append(places.around)
+    if not is_uniform(_ranks(shares) if problems else shares, bins):
+        problems.append("the two random numbers have to do with each other")
+    words = ", and ".join(problems)
+    if is_along:
+        return uneven(words, places.way, along)
+    goes_round = places is not _TRIANGLE
+    return uneven(words, places.way_around, around, goes_round=goes_round) if places.around in problems else words
+
+
+def _ranks(shares: Numbers) -> Numbers:
+    """Each column made even: what is left tells whether one has to do with the other."""
+    order = np.argsort(shares, axis=0, kind="stable")
+    return np.asarray((np.argsort(order, axis=0) + 0.5) / len(shares))
 
 
 def _turns(x: Numbers, y: Numbers) -> Numbers:
@@ -464,8 +478,11 @@ _ROOT_OF_FLOAT = 7e-4  # of a distance: what a root of the difference of squares
 _SEEN = 1.02  # of the cap's height, with what rounding adds
 
 
-def _beside(heights: Numbers) -> str:
-    """Where points off a sphere lie for who looks at it. `heights`: of directions, in that of the cap that it fills."""
+def _beside(heights: Numbers, local: Numbers) -> str:
+    """Where points off a sphere lie for who looks at it. `heights`: of directions, in that of the cap that it fills.
+    `local`: the directions, with the way to the centre as z."""
+    if float(local[:, 2].max()) < 0:
+        return "and so do all others, behind who looks at it"
     if float(heights.max()) <= _SEEN:
         return "though in a direction in which the sphere is seen"
     return "in a direction in which the sphere is not seen" if float(heights.min()) <= _SEEN else "and so do all others"
@@ -493,7 +510,7 @@ def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
         reach = np.linalg.norm(ways, axis=1)
         near = "points are all as near as the nearest one of the sphere, so most of them lie off it"
         is_near = float(np.abs(reach - (distance - radius)).max()) <= slack * radius
-        position = near if is_near else _where(f"a point lies off the sphere, {_beside(heights)}", spokes)
+        position = near if is_near else _where(f"a point lies off the sphere, {_beside(heights, local)}", spokes)
     elif float((spokes @ z).max()) > -sine + 0.05 + slack:
         some = "all points lie" if float((spokes @ z).min()) > -sine else "a point lies"
         position = f"{some} on the side of the sphere that is not seen"
@@ -711,8 +728,11 @@ def _lens_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
 
 
 def _lens_credit(inputs: Inputs, _expected: _Draws, actual: _Draws) -> float:
-    """Half for rays from the right places, or to the right one; a lens without a size has one place only."""
+    """Half for rays from the right places, or to the right one; a lens without a size has one place only, and who gives
+    back the ray that came has no lens."""
     if _broken(inputs, actual, "a ray") or not real_of(inputs, "lens_radius"):
+        return 0.0
+    if (actual.rows[:, :3] == actual.rows[0, :3]).all():
         return 0.0
     return share_right(*_lens_problems(inputs, actual))
 
