@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/un.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -279,6 +280,13 @@ long wait_for_a_map() {
     void* const page = mmap(nullptr, 1, PROT_READ, MAP_SHARED, open("/proc/self/exe", O_RDONLY), 0);
     return msync(page, 1, MS_SYNC);
 }
+long open_to_wait() { return open("/proc/self/exe", O_RDONLY | O_DSYNC); }
+long open_to_wait_by_number() { return syscall(SYS_openat, AT_FDCWD, "/proc/self/exe", O_RDONLY | O_SYNC, 0); }
+long write_and_wait() {
+    char byte = 0;
+    const iovec one{&byte, 1};
+    return syscall(SYS_pwritev2, STDERR_FILENO, &one, 0, -1L, -1L, 0);
+}
 long ask_for_queued_work() {
     unsigned long queue = 0;
     return syscall(SYS_io_setup, 1, &queue);
@@ -291,6 +299,9 @@ int ask_system(const Words&) {
         {"disk for a map", wait_for_a_map},
         {"disk for a part", wait_for_a_part},
         {"disk for data", wait_for_data},
+        {"disk for each write", open_to_wait},
+        {"disk for each write by number", open_to_wait_by_number},
+        {"disk for one write", write_and_wait},
         {"events", [] { return static_cast<long>(epoll_create1(0)); }},
         {"keys", [] { return syscall(SYS_keyctl, 0, -3, 1); }},
         {"lease", ask_for_a_lease},

@@ -89,7 +89,7 @@ def restrict_system_calls_by_seccomp(instructions: bytes) -> None:
 
 _LOAD, _EQUAL, _AT_LEAST, _ANY_BIT, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 _ALLOW, _KILL, _ERRNO = 0x7FFF0000, 0x80000000, 0x00050000
-_NUMBER, _ARCHITECTURE, _FIRST_ARGUMENT, _SECOND_ARGUMENT = 0, 4, 16, 24
+_NUMBER, _ARCHITECTURE, _FIRST_ARGUMENT, _SECOND_ARGUMENT, _THIRD_ARGUMENT = 0, 4, 16, 24, 32
 _X32 = 0x40000000
 _NEW_NAMESPACES = 0x7E020000  # CLONE_NEWNS, NEWCGROUP, NEWUTS, NEWIPC, NEWUSER, NEWPID, NEWNET
 
@@ -107,7 +107,7 @@ _X86_64 = {
     "pivot_root": 155, "open_tree": 428, "move_mount": 429, "fsopen": 430,
     "flock": 73, "inotify_init": 253, "inotify_init1": 294, "fanotify_init": 300, "utime": 132, "utimes": 235,
     "futimesat": 261, "utimensat": 280, "sync": 162, "syncfs": 306, "fsync": 74, "fdatasync": 75, "msync": 26,
-    "sync_file_range": 277, "epoll_create": 213, "epoll_create1": 291, "io_setup": 206,
+    "sync_file_range": 277, "pwritev2": 328, "epoll_create": 213, "epoll_create1": 291, "io_setup": 206,
 }  # fmt: skip
 _AARCH64 = {
     "socket": 198, "socketpair": 199, "syslog": 116, "shmget": 194, "semget": 190, "msgget": 186, "mq_open": 180,
@@ -117,13 +117,16 @@ _AARCH64 = {
     "userfaultfd": 282, "io_uring_setup": 425, "open_by_handle_at": 265, "unshare": 97, "setns": 268, "mount": 40,
     "umount2": 39, "pivot_root": 41, "open_tree": 428, "move_mount": 429, "fsopen": 430,
     "flock": 32, "inotify_init1": 26, "fanotify_init": 262, "utimensat": 88, "sync": 81, "syncfs": 267,
-    "fsync": 82, "fdatasync": 83, "msync": 227, "sync_file_range": 84, "epoll_create1": 20, "io_setup": 0,
+    "fsync": 82, "fdatasync": 83, "msync": 227, "sync_file_range": 84, "pwritev2": 287, "epoll_create1": 20,
+    "io_setup": 0,
 }  # fmt: skip
-_CLONE3 = 435
+_CLONE3, _OPENAT2 = 435, 437
 # Of fcntl: copies of descriptors and their flags, and a copy that is closed on exec. Other commands lock a file, watch
 # it, leave hints on it, or make whoever else opens it wait.
 _FIRST_ON_FILES, _COPY_CLOSED_ON_EXEC = 5, 1030
 _KNOWN = {"x86_64": (0xC000003E, _X86_64, 56, 302, 72), "aarch64": (0xC00000B7, _AARCH64, 220, 261, 25)}
+_OPENING = {"x86_64": ((2, _SECOND_ARGUMENT), (257, _THIRD_ARGUMENT)), "aarch64": ((56, _THIRD_ARGUMENT),)}
+_WAITING = 0x101000  # O_SYNC and O_DSYNC: each write to such a file waits for the disk
 
 
 def _step(code: int, value: int, if_true: int = 0, if_false: int = 0) -> bytes:
@@ -144,7 +147,10 @@ def syscall_filter() -> bytes | None:
     steps += [_step(_EQUAL, prlimit, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_EQUAL, 0, 1, 0), refuse]
     steps += [_step(_EQUAL, fcntl, 0, 4), _step(_LOAD, _SECOND_ARGUMENT), _step(_AT_LEAST, _FIRST_ON_FILES, 0, 2)]
     steps += [_step(_EQUAL, _COPY_CLOSED_ON_EXEC, 1, 0), refuse]
-    # The C library falls back from clone3, whose flags a filter cannot see, to clone.
-    steps += [_step(_EQUAL, _CLONE3, 0, 1), _step(_RETURN, _ERRNO | errno.ENOSYS)]
+    # The C library falls back from clone3, whose flags a filter cannot see, to clone; so would who asks for openat2.
+    for number in (_CLONE3, _OPENAT2):
+        steps += [_step(_EQUAL, number, 0, 1), _step(_RETURN, _ERRNO | errno.ENOSYS)]
     steps += [_step(_EQUAL, clone, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_ANY_BIT, _NEW_NAMESPACES, 0, 1), refuse]
+    for number, flags in _OPENING[os.uname().machine]:
+        steps += [_step(_EQUAL, number, 0, 3), _step(_LOAD, flags), _step(_ANY_BIT, _WAITING, 0, 1), refuse]
     return b"".join([*steps, _step(_RETURN, _ALLOW)])
