@@ -180,6 +180,7 @@ def test_which_functions_are_called() -> None:
         ("[[nodiscard]] std::optional<HitRecord> far(const Ray& ray) {", False),
         ("namespace { std::vector<int>& far() {", False),
         ("std::array<Box, 8> far(const Box& box) {", False),
+        ('extern "C" float far(float);', False),
         ("struct A {\npublic:\n    float far() const;", False),
         ("void f() { far(1); }", True),
         ("Ray f() { return {a, b, far(1)}; }", True),

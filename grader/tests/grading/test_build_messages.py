@@ -38,6 +38,13 @@ def test_the_students_own_file_comes_first_with_the_lines_around_it(shadows: Ste
         "It does not build: shadows.cpp:4:11: 'nope' was not declared\n"
         "    3 | int one;\n    4 | int two = nope;\n      |           ^\n    5 | int three;"
     )
+    odd = SOURCE.replace("one;", "one;  //\x0c\u2028\x85\v")
+    assert compile_message(shadows, odd, ran(output)).endswith("5 | int three;")
+
+
+def test_the_linkers_words_are_told_as_such(shadows: Step) -> None:
+    said = "ld: /in/1/step.o: in function `_init':\nshadows.cpp:(.text+0x30): multiple definition of `_init';\n"
+    assert "_init is defined twice" in compile_message(shadows, SOURCE, ran(said))
 
 
 @pytest.mark.parametrize(

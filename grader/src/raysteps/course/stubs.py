@@ -183,6 +183,7 @@ def unfinished_functions(source: str, step: Step) -> list[str]:
 _WORDS_OF_CODE = {"return", "else", "do", "case", "default", "goto", "throw", "new", "delete", "sizeof", "using"} | {
     "co_return", "co_yield", "co_await", "and", "or", "not",
 }  # fmt: skip
+_LINKAGE = ('"C"', '"C++"')
 _STATEMENT_ENDS = frozenset(";{}\n")
 _OF_TYPES = frozenset(":<>,&*[]")
 _GO_ON = (",", "<", ":", "[")  # whatever stands before, a type does not end with one of these
@@ -200,7 +201,9 @@ def _is_declared(code: Sequence[str], at: int) -> bool:
     if not before or before[-1] in _GO_ON or before[-2:] == ["&", "&"] or before[0].isdigit():
         return False
     words = [word for word in before if word not in _OF_TYPES]
-    return all((word.isidentifier() and word not in _WORDS_OF_CODE) or word.isdigit() for word in words)
+    return all(
+        (word.isidentifier() and word not in _WORDS_OF_CODE) or word.isdigit() or word in _LINKAGE for word in words
+    )
 
 
 def _places(source: str, names: Collection[str]) -> Iterator[tuple[str, int, bool]]:

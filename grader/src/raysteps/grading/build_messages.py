@@ -66,7 +66,7 @@ def errors_in(output: str, file: str) -> bool:
 
 def _context(source: str, line: int, column: int) -> str:
     """The line with one before and one after, and a mark under the column."""
-    lines = source.splitlines()
+    lines = source.removesuffix("\n").split("\n")  # as a compiler counts them, which knows no other end of a line
     shown = []
     for number in range(max(1, line - 1), min(len(lines), line + 1) + 1):
         shown.append(f"{number:5} | {shorten(printable(lines[number - 1]), 160)}")
@@ -176,6 +176,8 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         return "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?"
     if "relocation truncated to fit" in output:
         return "It does not build: its variables take more than 2 GB. Is there a huge array?"
+    if is_of_a_linker(output):
+        return link_message(ran)
     lines = [line for line in output.splitlines() if line.strip() and not _LAST_WORDS.search(line)]
     telling = [line for line in lines if re.search("error:|terminated|Error", line)]
     said = shorten("".join(telling[-1:] or lines[:1]), 300)

@@ -18,7 +18,15 @@ from raysteps.course.stubs import borrowed_functions, included, pristine_stub
 from raysteps.sandbox.task import AccountingSandbox, Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
 from raysteps.toolchain.kit_artifacts import NOTHING, BuiltKit, Kind, ProgramLinker, Replaced
 from raysteps.toolchain.limits import StepLimits
-from raysteps.toolchain.link import compile_words, include_words, library_flags, library_name, link_words
+from raysteps.toolchain.link import (
+    TELLS_WHAT_IS_NOWHERE,
+    compile_words,
+    found_nowhere,
+    include_words,
+    library_flags,
+    library_name,
+    link_words,
+)
 
 # What is in an object: the names that it defines and asks for.
 
@@ -56,6 +64,12 @@ _NOT_OF_A_LIBRARY = re.compile(r"_Z(?:T[VIST])?N?K?(?!9__gnu_cxx|10__cxxabi)[0-9
 def of_somebody(name: str) -> bool:
     """Whether a linker name is of a C++ function or class that is neither the compiler's nor the standard library's."""
     return _NOT_OF_A_LIBRARY.match(name) is not None
+
+
+def _of_no_library(ran: TaskResult) -> set[str]:
+    """What a linker finds nowhere, without what a compiler asks for by itself, whose names begin so."""
+    said = (ran.outcome.stderr + ran.outcome.stdout)[:_MAX_READ]
+    return {name for name in found_nowhere(said) if not name.startswith("__")}
 
 
 _NESTED = re.compile(r"_Z(?:T[VISWH])?(?:NK?)?")
@@ -321,11 +335,14 @@ class StudentBuild:
         if forbidden or missing or undefined:
             return Compiled(None, compiled, forbidden, missing, undefined)
         words: list[Word] = [description.compiler, *description.link_flags, *library_flags(step.number)]
-        words += [Input(self._kit.exports(step), "exports"), Input(raw, "step.o")]
+        words += [Input(self._kit.exports(step), "exports"), Input(raw, "step.o"), *TELLS_WHAT_IS_NOWHERE]
         ran = self._run(limits, *words, "-o", Output("library"))
         data = ran.outputs.get("library")
         if not data:
             return Compiled(None, ran)
+        nowhere = sorted(_of_no_library(ran) & symbols.wanted - self._kit.allowed(step))
+        if nowhere:  # such as what is declared as C and was forgotten
+            return Compiled(None, compiled, undefined=self._shown(raw, nowhere, limits))
         return Compiled(self._write_library(step, data), compiled)
 
     def _shown(self, raw: Path, names: list[str], limits: StepLimits) -> tuple[str, ...]:

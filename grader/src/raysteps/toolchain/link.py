@@ -196,6 +196,17 @@ def library_flags(number: str) -> list[str]:
     return ["-fno-lto", "-shared", "-Wl,-z,now", f"-Wl,-soname,{library_name(number)}", "-Wl,--version-script"]
 
 
+# A linker that tells what it finds nowhere, by the linker's name, and makes the library all the same: it knows nothing
+# of what a box will have.
+TELLS_WHAT_IS_NOWHERE = ("-Wl,-z,defs", "-Wl,--warn-unresolved-symbols", "-Wl,--no-demangle")
+_NOWHERE = re.compile(r"undefined (?:reference to [`']|symbol: )(?P<name>[^`'\s]+)")
+
+
+def found_nowhere(said: str) -> set[str]:
+    """What such a linker has told."""
+    return {found["name"] for found in _NOWHERE.finditer(said)}
+
+
 def link_placeholder(description: Description, names: Sequence[str], library: Path) -> None:
     """A library with these functions and nothing in them, for programs to be linked with."""
     source = library.with_suffix(".s")
