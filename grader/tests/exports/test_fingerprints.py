@@ -5,7 +5,17 @@ import random
 import numpy as np
 import pytest
 
-from raysteps.exports.similar_pairs import GRAM, MAX_TOKENS, SURE, WINDOW, Word, gram_hashes, winnowed, words_of
+from raysteps.exports.similar_pairs import (
+    GRAM,
+    MAX_TOKENS,
+    SURE,
+    WINDOW,
+    Word,
+    gram_hashes,
+    is_read_whole,
+    winnowed,
+    words_of,
+)
 
 pytestmark = pytest.mark.portable
 
@@ -93,6 +103,9 @@ def test_fingerprints_are_few_and_never_far_apart() -> None:
 def test_the_same_word_all_over_makes_few_fingerprints_and_the_rest_of_a_huge_file_is_not_read() -> None:
     words = words_of("a " * 500_000, _PUBLIC)
     assert len(words) == MAX_TOKENS
+    assert not is_read_whole("a " * MAX_TOKENS, _PUBLIC)
+    assert not is_read_whole(";" * 3 * MAX_TOKENS, _PUBLIC)
+    assert is_read_whole("a " * (MAX_TOKENS - 1), _PUBLIC)
     hashes = gram_hashes(words)
     assert len(set(hashes.tolist())) == 1
     assert len(winnowed(hashes)) <= len(hashes) / WINDOW + 1

@@ -69,13 +69,15 @@ def test_one_long_step_is_enough(
     assert found.pairs[0].most == step
 
 
-def test_a_file_that_moved_to_another_step_is_found(
+def test_a_file_that_moved_to_another_step_is_found_however_both_are_padded(
     project: Project, steps: list[Step], public: frozenset[str], compared: Compare
 ) -> None:
     draw = random.Random(22)
     honest = honest_class(project, steps, ["corpus"], draw)
     moved = changed(honest[1]["06-octree"], medium(public), draw)
     honest[0] = {**honest[0], "09-bvh": moved + honest[0]["09-bvh"], "06-octree": ""}
+    for one, step in ((honest[0], "09-bvh"), (honest[1], "06-octree")):
+        one[step] += " ".join(draw.choices(["a", "1", "'b'", "if", "float", "+", "-", "<", "[", "?"], k=12_000))
     found = compared([Handed(str(at), one) for at, one in enumerate(honest)])
     assert _alike(found) == {(0, 1)}
 

@@ -23,6 +23,7 @@ from raysteps.course.stubs import pristine_stub
 from raysteps.exports.similar_pairs import (
     LOOK,
     MAX_SUBMISSIONS,
+    MAX_TOKENS,
     Comparison,
     Handed,
     Likeness,
@@ -34,6 +35,7 @@ from raysteps.exports.similar_pairs import (
     all_hashes,
     compare,
     groups,
+    is_read_whole,
     passages,
 )
 from raysteps.exports.similarity import everybodys_code, kits_ways, started_of_class
@@ -180,7 +182,22 @@ def _shown(
 # The page, the table and the JSON.
 
 
-def _page(project: Project, handed: Sequence[Handed], shown: Sequence[ShownPair], compared: Comparison) -> str:
+_HARDLY_READ = f"only the first {MAX_TOKENS:,} words are compared, and an honest file has 3000; look at it yourself."
+
+
+def _hardly_read(handed: Sequence[Handed], public: Collection[str]) -> list[tuple[int, str]]:
+    """Submissions by their places, and the steps of them whose files are longer than what is compared."""
+    files = [(at, step, text) for at, one in enumerate(handed) for step, text in one.sources.items()]
+    return [(at, step) for at, step, text in files if not is_read_whole(text, public)]
+
+
+def _page(
+    project: Project,
+    handed: Sequence[Handed],
+    shown: Sequence[ShownPair],
+    compared: Comparison,
+    hardly_read: Sequence[tuple[int, str]],
+) -> str:
     known = {step.id: f"{step.number} {step.title}" for step in read_steps(project)}
     own = [one.name for one in handed if one.origin == "class"]
     by_name = dict(zip(own, aliases(own), strict=True))
@@ -193,6 +210,8 @@ def _page(project: Project, handed: Sequence[Handed], shown: Sequence[ShownPair]
         "compared": compared,
         "shown": shown,
         "groups": groups(compared.pairs),
+        "hardly_read": hardly_read,
+        "why_hardly": _HARDLY_READ,
         "look_from": LOOK,
     }
     return render_page("similar", "Similar submissions", context, ("similar",), ("similar",))
@@ -286,10 +305,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         size = _bytes(one)
         shown.append(one if size <= room else replace(one, steps=()))
         room -= size if size <= room else 0
-    write_out(arguments.out, _page(project, handed, shown, compared).encode("utf-8", "replace"))
+    hardly_read = _hardly_read(handed, public)
+    write_out(arguments.out, _page(project, handed, shown, compared, hardly_read).encode("utf-8", "replace"))
     if arguments.json is not None:
         write_out(arguments.json, encoded(plain(_document(handed, stubs, shown, compared))))
     _print(console, handed, shown, compared)
+    for at, step in hardly_read:
+        console.print(f"{printable(handed[at].name)}, {step}: {_HARDLY_READ}", markup=False, highlight=False)
     console.print(f"Page: {escape(str(arguments.out))}", soft_wrap=True, highlight=False)
     if arguments.json is not None:
         console.print(f"Pairs: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)

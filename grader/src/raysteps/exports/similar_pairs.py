@@ -115,6 +115,13 @@ def words_of(source: str, public: Collection[str]) -> list[Word]:
     return found[:MAX_TOKENS]
 
 
+def is_read_whole(source: str, public: Collection[str]) -> bool:
+    """Whether no word of it is left out: somebody may have written many to hide those that follow."""
+    if len(source) < MAX_TOKENS:
+        return True
+    return len(_paired(source)) <= 2 * MAX_TOKENS and len(words_of(source, public)) < MAX_TOKENS
+
+
 @cache
 def _number(word: str) -> int:
     return int.from_bytes(hashlib.blake2b(word.encode("utf-8", "replace"), digest_size=8).digest(), "little")
@@ -154,6 +161,7 @@ def winnowed(hashes: Hashes) -> list[int]:
 # Pairs that have more of these in common than others.
 
 USUAL = 0.75  # what more than this share of all have says nothing about two of them
+LONG = 2.0  # times what half of all files of a step have of their own: what is more of it counts for nothing
 SHORT = 60.0  # fingerprints: code of this weight that is all alike is half as alike as long code
 LOOK = 0.3  # from this likeness on a pair is worth a look
 MAX_SUBMISSIONS = 2000
@@ -227,6 +235,13 @@ class _Files:
     shared: Matrix
 
 
+def _unpadded(own: Matrix, steps: Sequence[str]) -> Matrix:
+    """What is each file's own, without what it is longer than others of its step."""
+    all_steps = np.array(steps)
+    most = {step: max(SHORT, LONG * float(np.median(own[all_steps == step]))) for step in set(steps)}
+    return np.minimum(own, np.array([most[step] for step in steps], np.float32))
+
+
 def _compared(prints: Sequence[Mapping[str, Hashes]], given: Hashes) -> _Files:
     rows = [(at, step) for at, by_step in enumerate(prints) for step in by_step]
     files = [prints[at][step] for at, step in rows]
@@ -237,7 +252,7 @@ def _compared(prints: Sequence[Mapping[str, Hashes]], given: Hashes) -> _Files:
     often = np.bincount(had, minlength=len(every))
     weights = _weights(often, max(2, len(prints)))
     weights[np.isin(every, given)] = 0
-    own = np.bincount(row, weights[which], len(rows)).astype(np.float32)
+    own = _unpadded(np.bincount(row, weights[which], len(rows)).astype(np.float32), [step for _, step in rows])
     wanted = np.flatnonzero((often > 1) & (weights > 0))
     column = np.full(len(every), -1)
     column[wanted] = np.arange(len(wanted))
@@ -273,7 +288,7 @@ class _Table:
 
     def likeness(self) -> Matrix:
         found: Matrix = self.shared / (self.own + np.float32(SHORT))[:, None]
-        return np.maximum(found, found.T)
+        return np.minimum(np.maximum(found, found.T), np.float32(1))
 
     def shares(self, first: int, second: int) -> Shares:
         one, other = (
