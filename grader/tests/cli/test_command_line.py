@@ -114,6 +114,12 @@ def test_a_command_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert "chekc: there is no such command; did you mean check? See ./raysteps --help" in capsys.readouterr().err
 
 
+def test_no_word_is_a_command_to_github_actions() -> None:
+    words = [sys.executable, "-P", "-m", "raysteps", "##[error]x"]
+    said = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "GITHUB_ACTIONS": "true"}).stderr
+    assert "# #[error]x: there is no such command" in said
+
+
 @pytest.mark.parametrize("word", sorted(app._MEANT))
 def test_a_word_of_another_program_is_answered_with_what_comes_nearest(
     word: str, capsys: pytest.CaptureFixture[str]

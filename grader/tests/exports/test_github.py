@@ -16,6 +16,7 @@ from PIL import Image
 
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.markdown import prose
+from raysteps.common.text import harmless_log
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.exports.autograders import classroom50_autograder, github_workflow
@@ -30,7 +31,6 @@ from raysteps.exports.github import (
     whole_points,
 )
 from raysteps.exports.hosted import by_id, deliver_github, submitted_at
-from raysteps.exports.items import harmless_log
 from raysteps.report.wording import total_words
 from raysteps.results.model import Results
 

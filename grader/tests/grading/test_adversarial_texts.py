@@ -16,10 +16,9 @@ import pytest
 from raysteps.common.documents import Malformed, as_text
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome
-from raysteps.common.text import clean, printable
+from raysteps.common.text import clean, harmless_log, printable
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import same_code, tokens, unfinished_functions
-from raysteps.exports.items import harmless_log
 from raysteps.grading.build_messages import compile_message, is_of_a_linker, link_message, missing_name
 from raysteps.images.compare import PictureError, parse_ppm
 from raysteps.images.render import Rendered, render

@@ -10,14 +10,14 @@ from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
-from typing import Literal
+from typing import Any, Literal, TextIO, cast
 
 from rich.console import Console
 
 from raysteps import __version__
 from raysteps.cli import STUDENTS_KIT, Parser
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, is_full, reason, reason_and_place
-from raysteps.common.text import did_you_mean
+from raysteps.common.text import did_you_mean, harmless_log
 from raysteps.course.project import Project, here
 
 EXITS = """exit codes: 0 all passed, 1 checks failed, 2 usage, 3 the student's code does not build, 4 grader fault,
@@ -193,6 +193,20 @@ class _ReaderIsGone(BrokenPipeError):
     """Nobody reads what is printed."""
 
 
+class _ActionsLog:
+    """A stream of which GitHub Actions takes no line for a command: what was handed in is printed, too."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        self._stream.write(harmless_log(text))
+        return len(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
 class _Console(Console):
     def on_broken_pipe(self) -> None:
         raise _ReaderIsGone  # not an exit code of 1: see `exit_code_of`
@@ -301,6 +315,8 @@ _RARELY = 50_000  # new objects, until Python looks for circles that nobody need
 
 def run_process(argv: Sequence[str] | None = None) -> int:
     """The same for a process that does nothing else: a command that says how long it may take is ended after that."""
+    if os.environ.get("GITHUB_ACTIONS"):
+        sys.stdout, sys.stderr = (cast(TextIO, _ActionsLog(stream)) for stream in (sys.stdout, sys.stderr))
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy starts others for longer than it computes here
     gc.set_threshold(_RARELY)
     words = as_options(sys.argv[1:] if argv is None else argv)

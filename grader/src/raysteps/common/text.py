@@ -31,6 +31,14 @@ def one_line(text: str) -> str:
     return printable(text).translate(_BLANKS)
 
 
+_COMMAND = re.compile(r"^([^\S\n]*)::", re.MULTILINE)
+
+
+def harmless_log(text: str) -> str:
+    """The log of GitHub Actions takes a line that begins with two colons for a command, and `##[` anywhere in it."""
+    return _COMMAND.sub(r"\1: :", text).replace("##[", "# #[")
+
+
 def seen(text: str) -> str:
     """Without control characters, and without signs that nobody sees."""
     return _UNSEEN.sub("", _bare(text))

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import UsageError
-from raysteps.common.text import apportion, clean, tenths
+from raysteps.common.text import apportion, clean, harmless_log, tenths
 from raysteps.course.manifest import Step
 from raysteps.exports.formats import sheet
 from raysteps.exports.items import (
@@ -16,7 +16,6 @@ from raysteps.exports.items import (
     as_code,
     extra_of,
     failed_checks,
-    harmless_log,
     items_of,
     one_line,
     spread_deduction,

@@ -14,7 +14,7 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason, reason_and_place
 from raysteps.common.files import write_bytes, write_out
 from raysteps.common.process import Outcome, run
-from raysteps.common.text import clean, number, shorten
+from raysteps.common.text import clean, harmless_log, number, shorten
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.exports.autolab import as_lines, to_autolab
@@ -29,7 +29,7 @@ from raysteps.exports.github import (
     to_legacy,
 )
 from raysteps.exports.gradescope import Visibility, not_graded, submitters, to_gradescope
-from raysteps.exports.items import harmless_log, summary, wrapped
+from raysteps.exports.items import summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
 from raysteps.results.store import read_results

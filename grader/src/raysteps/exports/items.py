@@ -14,8 +14,6 @@ from raysteps.results.model import Diagnosis, HiddenResult, ImageResult, Integra
 
 # Makes text that came from a student's program safe to show somewhere else.
 
-_COMMAND = re.compile(r"^([^\S\n]*)::", re.MULTILINE)
-
 
 def one_line(text: str, limit: int = 200) -> str:
     """For names and titles."""
@@ -42,11 +40,6 @@ def wrapped(text: str) -> str:
         parts = textwrap.wrap(line, 96, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
         lines += parts or [""]
     return "\n".join(lines)
-
-
-def harmless_log(text: str) -> str:
-    """The log of GitHub Actions takes a line that begins with two colons for a command, and `##[` anywhere in it."""
-    return _COMMAND.sub(r"\1: :", text).replace("##[", "# #[")
 
 
 Kind = Literal["test", "picture", "hidden", "together", "step"]
