@@ -17,7 +17,7 @@ from raysteps.grading.scoring import still_missing
 from raysteps.grading.scoring import test_weights as weights_of
 from raysteps.judge.counterexamples import Examples, read_case
 from raysteps.judge.worker import JudgedCase
-from raysteps.results.model import Settings, StepResult
+from raysteps.results.model import HiddenResult, Settings, StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import AccountingSandbox, Sandbox, Task, TaskResult
 from raysteps.submission.load import Submission
@@ -224,6 +224,9 @@ def test_nor_does_one_where_a_test_is_failed_on_purpose() -> None:
     assert still_missing(["to_byte"], tests, {"own 0", "own 1", "own 2"}) == []
     assert still_missing(["to_byte"], tests, {"own 0", "own 1"}) == []
     assert still_missing(["to_byte"], tests, {"own 0", "both"}) == ["to_byte"], "a stub that is right by luck"
+    for share, missing in ((0.5, []), (0.4, ["to_byte"])):
+        hidden = [HiddenResult("to_byte", "function", share), HiddenResult("to_byte", "picture", 1.0)]
+        assert still_missing(["to_byte"], tests, (), hidden) == missing
 
 
 def test_such_a_box_holds_no_reference(kit: BuiltKit, tmp_path: Path) -> None:

@@ -131,6 +131,7 @@ class HiddenStepGrader(StepGrader):
                 limits = limits_after(result.tests, self._limits)  # a picture that hangs takes no time from functions
                 result.hidden = self._asking(plan, programs["worker"], completed, limits)()
                 self._ask_apart(binary, plan, limits)
+                self._weigh_tests()
             if early is not None:
                 result.images, scenes = draw(self._gallery) if early.cancel() else early.result()
             not_spared = unspared(result.images, result.hidden)

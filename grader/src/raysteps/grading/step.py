@@ -196,9 +196,14 @@ class StepGrader:
             self._work.say(f"{self.step.id}: {text}")
 
         self._result.tests = run_tests(self._work.sandbox, program, tests, self._limits, say)
-        passed = {test.name for test in self._result.tests if test.passed}
-        weights = test_weights(self.step, tests, still_missing(self._unfinished, tests, passed))
-        for test in self._result.tests:
+        self._weigh_tests()
+
+    def _weigh_tests(self) -> None:
+        """By what is known of the functions so far."""
+        result, tests = self._result, self._work.kit.tests[self.step.id]
+        passed = {test.name for test in result.tests if test.passed}
+        weights = test_weights(self.step, tests, still_missing(self._unfinished, tests, passed, result.hidden))
+        for test in result.tests:
             test.weight = weights[test.name]
 
     def _drawn_again(self, draw: Callable[[ImageGrader], _T], early: "Future[_T] | None") -> "Future[_T] | None":
