@@ -45,6 +45,9 @@ def test_the_students_own_file_comes_first_with_the_lines_around_it(shadows: Ste
 def test_the_linkers_words_are_told_as_such(shadows: Step) -> None:
     said = "ld: /in/1/step.o: in function `_init':\nshadows.cpp:(.text+0x30): multiple definition of `_init';\n"
     assert "_init is defined twice" in compile_message(shadows, SOURCE, ran(said))
+    for name in ("ccO4Yi4A", "ccwQHJHP"):
+        said = f"/tmp/{name}.s: Assembler messages:\n/tmp/{name}.s:7: Error: x"
+        assert compile_message(shadows, SOURCE, ran(said)) == "It does not build: temporary.s:7: Error: x"
 
 
 @pytest.mark.parametrize(

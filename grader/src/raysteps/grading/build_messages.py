@@ -9,7 +9,7 @@ from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.stubs import borrowed_functions, included, uses
 from raysteps.results.statuses import NOT_BUILT
 from raysteps.sandbox.task import TaskResult
-from raysteps.toolchain.compile import Compiled, own_name
+from raysteps.toolchain.compile import Compiled, clean_log, own_name
 from raysteps.toolchain.kit_artifacts import BuiltKit, function_name
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
@@ -180,7 +180,7 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         return link_message(ran)
     lines = [line for line in output.splitlines() if line.strip() and not _LAST_WORDS.search(line)]
     telling = [line for line in lines if re.search("error:|terminated|Error", line)]
-    said = shorten("".join(telling[-1:] or lines[:1]), 300)
+    said = shorten(clean_log("".join(telling[-1:] or lines[:1])), 300)
     return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
 
 

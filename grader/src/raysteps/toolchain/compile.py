@@ -131,11 +131,15 @@ _MAX_READ = 4 * _MAX_LOG  # characters that are looked through
 # The parts of a path are looked at one after the other, and none of them twice, however a message is shaped.
 _PATH = re.compile(r"(?:\b[A-Za-z]:)?(?:[/\\][^\s:/\\]+)+[/\\]?")
 _SOURCE = re.compile(r"\w+\.cpp\b")
+_TEMPORARY = re.compile(r"cc\w{6}(\.\w+)")  # as GCC calls its files, each time by another name
 
 
 def _without_folders(found: re.Match[str]) -> str:
     """A path as a student knows it: from the kit's headers on, or the name of a source."""
     parts = found[0].replace("\\", "/").split("/")
+    temporary = _TEMPORARY.fullmatch(parts[-1])
+    if temporary is not None:
+        return f"temporary{temporary[1]}"
     for at in range(len(parts) - 2, 0, -1):
         if parts[at - 1] == "include" and parts[at] in ("core", "steps"):
             return "/".join(parts[at:])
