@@ -198,7 +198,7 @@ def library_flags(number: str) -> list[str]:
 
 # A linker that tells what it finds nowhere, by the linker's name, and makes the library all the same: it knows nothing
 # of what a box will have.
-TELLS_WHAT_IS_NOWHERE = ("-Wl,-z,defs", "-Wl,--warn-unresolved-symbols", "-Wl,--no-demangle")
+TELLS_WHAT_IS_NOWHERE = ("-pthread", "-Wl,-z,defs", "-Wl,--warn-unresolved-symbols", "-Wl,--no-demangle")
 _NOWHERE = re.compile(r"undefined (?:reference to [`']|symbol: )(?P<name>[^`'\s]+)")
 
 
