@@ -122,6 +122,10 @@ def test_beginners_are_told_in_other_words(shadows: Step, tmp_path: Path, compil
         ("C2039: 'distance': is not a member of 'std::optional<raysteps::Hit>'", "ask has_value() first"),
         ("C2511: 'float Hit::twice(void)': overloaded member function not found in 'Hit'", "as the header declares it"),
         ("C1075: '{': no matching token found", "closing brace is missing"),
+        ("C2059: syntax error: '}'", "one } too many"),
+        ("C2039: 'sqrtt': is not a member of 'std'", "declares it included"),
+        ("C2819: type 'Hit' does not have an overloaded member 'operator ->'", "in place of ->"),
+        ("C2440: 'return': cannot convert from 'float' to 'glm::vec3'", "another is asked for"),
         ("C2146: syntax error: missing ';' before identifier 'b'", "semicolon is missing"),
         ("C2296: '^': illegal, left operand has type 'float'", "a power is std::pow"),
         ("C2084: function 'int f(void)' already has a body", "keep one of them"),
@@ -130,6 +134,24 @@ def test_beginners_are_told_in_other_words(shadows: Step, tmp_path: Path, compil
 )
 def test_microsofts_compiler_is_told_in_other_words(shadows: Step, said: str, told: str) -> None:
     assert told in compile_message(shadows, SOURCE, ran(f"C:\\kit\\shadows.cpp(4): error {said}\n")).splitlines()[4]
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        (["'Ray' does not name a type", "expected declaration before '}' token"], "one } too many"),
+        (["extraneous closing brace ('}')"], "one } too many"),
+        (["base operand of '->' has non-pointer type 'const Hit'"], "write . in place of ->"),
+        (["member reference type 'const Hit' is not a pointer; did you mean to use '.'?"], "write . in place of ->"),
+        (["'cout' is not a member of 'std'"], "declares it included"),
+        (["no member named 'cout' in namespace 'std'"], "declares it included"),
+        (["could not convert 'h' from 'const Hit' to 'glm::vec3' {aka 'glm::vec<3>'}"], "another is asked for"),
+        (["no viable conversion from returned value of type 'const Hit' to function return type"], "is asked for here"),
+    ],
+)
+def test_gcc_and_clang_are_told_in_other_words(shadows: Step, said: list[str], told: str) -> None:
+    output = "".join(f"shadows.cpp:4:1: error: {one}\n" for one in said)
+    assert told in compile_message(shadows, SOURCE, ran(output)).splitlines()[5]
 
 
 @pytest.mark.parametrize(

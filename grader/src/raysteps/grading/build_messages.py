@@ -85,7 +85,13 @@ def _more(errors: list[_Error]) -> str:
 
 # What errors mean that many meet first who are new to C++ and glm, as GCC, Clang and Microsoft's compiler write them.
 # JavaScript reads these patterns, too.
+_STRAY_BRACE = r"expected declaration before '}'|extraneous closing brace|C2059: .*'}'"
 IN_OTHER_WORDS = (
+    (
+        _STRAY_BRACE,
+        "There is one } too many, here or above: it ends namespace raysteps early, and names of the kit mean nothing "
+        "behind it.",
+    ),
     (
         r"(?:'operator[-+*/]=?'(?: in '.*')? \(operand types are|invalid operands|C267[6-9]: binary '[-+*/])"
         r"(?=.*'(?:const )?(?:glm::)?vec\W?\d)(?=.*'(?:const )?(?:unsigned |long )*(?:int|double|long)\b)",
@@ -107,6 +113,19 @@ IN_OTHER_WORDS = (
     (
         r"no declaration matches|out-of-line definition of .* does not match|C2511:",
         "It must stand here as the header declares it: the same arguments, with const and & where it has them.",
+    ),
+    (
+        r"(?:is not a member of|no member named .* in namespace|C2039: .*is not a member of) '(?:std|glm)'"
+        r"(?!.*did you mean)",
+        "Is it spelled right, and is the header that declares it included, such as <cmath> for std::sqrt?",
+    ),
+    (
+        r"base operand of '->' has non-pointer|member reference type .* is not a pointer|C2819:",
+        "What is no pointer has its members behind a dot: write . in place of ->.",
+    ),
+    (
+        r"could not convert .* to |no viable conversion from|C2440:",
+        "It is of one type, and another is asked for here: compare both with what the header says.",
     ),
     (
         r"No such file or directory$|file not found$|C1083:",
@@ -148,10 +167,16 @@ IN_OTHER_WORDS = (
 )
 
 
-def _other_words(text: str) -> str:
-    """The same as a line of its own, for what many meet first; else nothing."""
-    plain = re.sub("[\u2018\u2019]", "'", text)
-    found = next((words for pattern, words in IN_OTHER_WORDS if re.search(pattern, plain)), None)
+def _plain(error: _Error) -> str:
+    return re.sub("[\u2018\u2019]", "'", shorten(error.text))
+
+
+def _other_words(errors: list[_Error]) -> str:
+    """The first error as a line of its own, for what many meet first; else nothing. A brace too many has all of its
+    errors behind it, and may be told after them."""
+    texts = list(map(_plain, errors))
+    text = next((one for one in texts if re.search(_STRAY_BRACE, one)), texts[0])
+    found = next((words for pattern, words in IN_OTHER_WORDS if re.search(pattern, text)), None)
     return "" if found is None else f"\n{found}"
 
 
@@ -170,7 +195,7 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
         said = shorten(error.text, 300)
         text = f"It does not build: {place}: {said}"
         if own:
-            text += f"\n{_context(source, error.line, error.column)}{_other_words(shorten(error.text))}{_more(own)}"
+            text += f"\n{_context(source, error.line, error.column)}{_other_words(own)}{_more(own)}"
         return text
     if "File size limit exceeded" in output:
         return "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?"
