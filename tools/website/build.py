@@ -88,12 +88,22 @@ def check_tools() -> None:
             )
 
 
+def _find_options(stage: Path) -> None:
+    """Lets the search find the words of options, such as those of `--against`, which it leaves out in English."""
+    from sphinx.search.en import SearchEnglish
+
+    pages = (path.read_text(encoding="utf-8") for path in stage.rglob("*.md"))
+    words = {word for page in pages for option in re.findall(r"--([a-z][a-z-]*)", page) for word in option.split("-")}
+    SearchEnglish.stopwords = SearchEnglish.stopwords - words
+
+
 def build_site(stage: Path, out: Path, work: Path) -> list[str]:
     """Writes the pages to `out` and returns what Sphinx complained about."""
     from sphinx.application import Sphinx  # only here: the other commands need not wait for it
     from sphinx.util.docutils import docutils_namespace
 
     (stage / "conf.py").write_text(_CONF, encoding="utf-8")
+    _find_options(stage)
     said = io.StringIO()
     with docutils_namespace():
         sphinx = Sphinx(

@@ -223,6 +223,14 @@ def test_pages_show_all_without_a_network(site: Path, open_page: OpenPage) -> No
 
 
 @_TOGETHER
+def test_the_words_of_options_are_found(site: Path) -> None:
+    left_out = (site / "_static" / "language_data.js").read_text(encoding="utf-8").partition("]")[0]
+    assert '"the"' in left_out
+    assert '"against"' not in left_out
+    assert '"against":' in (site / "searchindex.js").read_text(encoding="utf-8")
+
+
+@_TOGETHER
 def test_search_works_in_pages_that_were_opened_as_files(site: Path, open_page: OpenPage) -> None:
     page = open_page(site / "index.html")
     page.locator("input[name=q]").first.fill("acne")
