@@ -55,6 +55,12 @@ def _huge(png: bytes) -> bytes:
     return png[:12] + header + struct.pack(">I", zlib.crc32(header)) + png[33:]
 
 
+def test_a_picture_is_read_by_what_it_holds(tmp_path: Path) -> None:
+    for name, content in (("a.png", b"P6\n1 1\n255\nabc"), ("b", Path(_picture(tmp_path / "c.png")).read_bytes())):
+        (tmp_path / name).write_bytes(content)
+        assert main(["compare", str(tmp_path / name), str(tmp_path / name)]) == 0
+
+
 _EXPECTED = "; expected a picture as `./raysteps render` writes it, .png or .ppm"
 
 
@@ -64,11 +70,11 @@ _EXPECTED = "; expected a picture as `./raysteps render` writes it, .png or .ppm
         ("none.png", None, "is not there"),
         ("none.ppm", None, "is not there"),
         (".", None, "is a folder"),
-        ("text.png", b"no picture", "is no PNG, or only a part of one"),
-        ("text.ppm", b"no picture", "the picture is not a binary PPM with 8-bit channels"),
-        ("part.png", lambda png: png[:60], "is no PNG, or only a part of one"),
-        ("chunk.png", _with_nonsense, "is no PNG, or only a part of one"),
-        ("huge.png", _huge, "is no PNG, or only a part of one"),
+        ("text.png", b"no picture", "is neither a PNG nor a PPM"),
+        ("text.ppm", b"P3 1 1 255 0 0 0", "the picture is not a binary PPM with 8-bit channels"),
+        ("part.png", lambda png: png[:60], "is only a part of a PNG, or a damaged one"),
+        ("chunk.png", _with_nonsense, "is only a part of a PNG, or a damaged one"),
+        ("huge.png", _huge, "is only a part of a PNG, or a damaged one"),
     ],
 )
 def test_what_is_no_picture_is_told_in_plain_words(

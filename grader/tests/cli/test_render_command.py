@@ -63,9 +63,12 @@ def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     assert main(["grade", "/no/such/submission"]) == 2
 
 
-def test_a_picture_of_another_kind_is_refused_before_anything_is_built(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["render", "scene.nff", "-o", "picture.jpg"]) == 2
-    assert "picture.jpg: pictures are written as .png or .ppm" in capsys.readouterr().err
+@pytest.mark.parametrize("name", ["picture.jpg", "picture", "mine.v2"])
+def test_a_picture_of_another_kind_is_refused_before_anything_is_built(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["render", "scene.nff", "-o", name]) == 2
+    assert f"{name}: pictures are written as .png or .ppm" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("command", ["render", "view", "inspect"])

@@ -36,15 +36,19 @@ def _read(path: Path) -> Pixels:
         what = "is a folder" if path.is_dir() else "is not there"
         raise UsageError(f"{path}: {what}; {_EXPECTED}")
     try:
-        path.open("rb").close()
+        with path.open("rb") as file:
+            start = file.read(4)
     except OSError as error:
         raise UsageError(f"{path}: cannot be read: {reason(error)}; {_EXPECTED}") from error
+    is_png = start == b"\x89PNG"
+    if start and not is_png and start[:1] != b"P":
+        raise UsageError(f"{path}: is neither a PNG nor a PPM; {_EXPECTED}")
     try:
-        return (read_ppm if path.suffix.lower() == ".ppm" else read_png)(path)
+        return (read_png if is_png else read_ppm)(path)
     except PictureError as error:
         raise UsageError(f"{path}: {error}; {_EXPECTED}") from error
     except (OSError, ValueError) as error:  # in the words of a library
-        raise UsageError(f"{path}: is no PNG, or only a part of one; {_EXPECTED}") from error
+        raise UsageError(f"{path}: is only a part of a PNG, or a damaged one; {_EXPECTED}") from error
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:

@@ -272,6 +272,13 @@ def _is_where_we_print(path: Path) -> bool:
         return False
 
 
+def _says_its_kind(path: Path) -> bool:
+    """By its ending; what is no file, such as a pipe or where we print, takes any."""
+    if path.suffix.lower() in (".png", ".ppm"):
+        return True
+    return not path.suffix and path.exists() and (not path.is_file() or _is_where_we_print(path))
+
+
 _LONG = 20.0  # seconds; the kit's own scenes take one or two
 
 
@@ -304,7 +311,7 @@ def run_words(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and --impl."""
     impl, args = take_impl(args)
     picture = last_value(args, "-o")
-    if picture is not None and Path(picture).suffix.lower() not in ("", ".png", ".ppm"):
+    if picture is not None and not _says_its_kind(Path(picture)):
         raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name that ends so")
     wanted_step(project, args)  # complains before anything is built
     args = with_scene(project, args, "render")
