@@ -1,6 +1,7 @@
 """Twins of the visible pictures, and made-up scenes."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -101,3 +102,15 @@ def test_a_scene_that_is_not_there_is_told_with_its_line_in_the_manifest(project
     line = [at for at, text in enumerate(lines, start=1) if text.startswith("scene = ")][1]
     with pytest.raises(GraderFault, match=rf"step.toml:{line}:1: scene: scenes/lessons/nope.nff is not there"):
         read_plan(project, replace(step, images=images))
+
+
+def test_a_scene_that_is_not_there_is_told_without_hidden_cases(
+    project: Project, steps: list[Step], tmp_path: Path
+) -> None:
+    step, course = steps[3], Project(tmp_path)
+    (course.steps / step.id).mkdir(parents=True)
+    (course.steps / step.id / "step.toml").write_text((project.steps / step.id / "step.toml").read_text())
+    assert read_plan(course, step) is None  # a students' kit
+    (course.solutions / step.id).mkdir(parents=True)
+    with pytest.raises(GraderFault, match=rf"step.toml:\d+:1: scene: {step.images[0].scene} is not there"):
+        read_plan(course, step)

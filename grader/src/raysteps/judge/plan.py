@@ -182,6 +182,8 @@ def read_plan(project: Project, step: Step) -> Plan | None:
     """None in a student's kit, which has no solutions; a bad file is the kit's fault."""
     path = project.solutions / step.id / "cases.toml"
     if not path.is_file():
+        if path.parent.is_dir():
+            refuse_absent_scenes(step, project)
         return None
     plan = _parse(read_text(path), step, path)
     refuse_absent_scenes(step, project)
