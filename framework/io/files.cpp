@@ -141,6 +141,16 @@ std::string read_file(const fs::path& path) {
     return bytes;
 }
 
+std::string read_text(const fs::path& path) {
+    std::string text = read_file(path);
+    const bool is_marked = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    const bool is_bare = text.size() > 1 && (text[0] == '\0') != (text[1] == '\0');  // half of each letter is empty
+    if (is_marked || is_bare) {
+        throw ReadError(display_name(path), 1, 1, "a text in UTF-8", "one in UTF-16: save it in UTF-8");
+    }
+    return text;
+}
+
 void write_file(const fs::path& path, std::string_view bytes) {
     const fs::path target = behind_links(path);
     std::error_code error;

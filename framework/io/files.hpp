@@ -32,6 +32,9 @@ public:
 /// Throws ReadError for a directory, a file that cannot be opened or read, and one above 1 GiB.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
+/// The same of a text, and also throws ReadError for UTF-16, as some editors and shells of Windows write it.
+[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+
 /// Writes to a temporary name in the same folder, then renames, so that nobody ever sees half a file. An existing
 /// file is replaced; a link is followed; a device or pipe (/dev/null) is written to directly.
 /// Throws std::runtime_error, and then nothing is left behind.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "io/files.hpp"
@@ -46,6 +47,18 @@ TEST_CASE("a file is made or replaced, byte for byte", "[write_file]") {
     write_file(folder / "out", bytes);
     CHECK(read_file(folder / "out") == bytes);
     CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a text in UTF-16 is refused in words", "[read_text]") {
+    const Folder folder;
+    for (const std::string_view start : {"\xff\xfe", "\xfe\xff", ""}) {
+        write_file(folder / "scene.nff", std::string(start) + std::string("\0v\0\n", 4));
+        CHECK_THROWS_WITH(read_text(folder / "scene.nff"),
+                          display_name(folder / "scene.nff") +
+                              ":1:1: expected a text in UTF-8, found one in UTF-16: save it in UTF-8");
+    }
+    write_file(folder / "scene.nff", "v\xc3\xbc");
+    CHECK(read_text(folder / "scene.nff") == "v\xc3\xbc");
 }
 
 TEST_CASE("a failure leaves nothing behind and says which file", "[write_file]") {

@@ -58,7 +58,7 @@ TEST_CASE("a viewpoint that shows nothing", "[nff][errors]") {
 }
 
 TEST_CASE("numbers that are none, not finite or out of range", "[nff][errors]") {
-    for (const std::string bad : {"abc", "nan", "inf", "-inf", "0x10", "1e", "1e+", ".", "-", "1.2.3", "1,5", "--1"}) {
+    for (const std::string bad : {"abc", "nan", "inf", "-inf", "0x10", "1e", "1e+", ".", "-", "1.2.3", "--1"}) {
         CHECK(error_of(k_start + "s 0 " + bad) ==
               "bad.nff:7:5: expected y of the sphere's centre, a number, found `" + bad + "`");
     }
@@ -93,9 +93,22 @@ TEST_CASE("absurd counts and files cut short", "[nff][errors]") {
           "bad.nff:9:1: expected x of the vertex, a number, found the end of the file");
 }
 
+TEST_CASE("what is written as elsewhere is told", "[nff][errors]") {
+    CHECK(error_of(k_start + "s 0,5 0 0 1") ==
+          "bad.nff:7:3: expected x of the sphere's centre, a number, "
+          "found `0,5`: numbers have a point, and blanks between them");
+    CHECK(error_of(k_start + "//ball") ==
+          "bad.nff:7:1: expected an entity (v, b, l, f, s, c, p or pp), found `//ball`: comments begin with #");
+}
+
 TEST_CASE("binary junk is shown in short and printable", "[nff][errors]") {
     using namespace std::string_literals;
-    CHECK(error_of("\x00\xff v"s) == "bad.nff:1:1: expected an entity (v, b, l, f, s, c, p or pp), found `\\x00\\xff`");
+    CHECK(error_of("\x00\xff v"s) ==
+          "bad.nff:1:1: expected an entity (v, b, l, f, s, c, p or pp), "
+          "found `\\x00\\xff`, with a sign that is not ASCII: type it anew");
+    CHECK(error_of(k_start + "s \u22121 0 0 1") ==
+          "bad.nff:7:3: expected x of the sphere's centre, a number, "
+          "found `\\xe2\\x88\\x921`, with a sign that is not ASCII: type it anew");
     CHECK(error_of(std::string(1000, 'z')).find("found `zzzzzzzzzzzzzzzzzzzz...`") != std::string::npos);
 }
 

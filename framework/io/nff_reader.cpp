@@ -215,11 +215,11 @@ bool is_pbrt(std::string_view text) {
 
 }  // namespace
 
-Scene read_nff(const std::filesystem::path& path) { return read_nff(read_file(path), display_name(path)); }
+Scene read_nff(const std::filesystem::path& path) { return read_nff(read_text(path), display_name(path)); }
 
 Scene load_scene(std::string_view path, const std::optional<PictureSize>& size) {
     const std::filesystem::path file = path_of(path);
-    const std::string text = read_file(file);
+    const std::string text = read_text(file);
     Scene scene = is_pbrt(text) ? read_pbrt_file(text, file) : read_nff(text, display_name(file));
     if (size) {
         scene.camera.width = size->width;

@@ -58,7 +58,7 @@ private:
                 scanner.fail(token, "at most 8 files that include each other", "one more");
             }
             const std::filesystem::path path = pbrt_path(folder_, scanner, token, file);
-            const std::string text = read_file(path);
+            const std::string text = read_text(path);
             read(text, display_name(path), depth + 1);
         } else if (word == "Texture") {
             materials_.name_texture(scanner, token);
@@ -257,7 +257,7 @@ private:
 
 }  // namespace
 
-Scene read_pbrt(const std::filesystem::path& path) { return read_pbrt_file(read_file(path), path); }
+Scene read_pbrt(const std::filesystem::path& path) { return read_pbrt_file(read_text(path), path); }
 
 Scene read_pbrt_file(std::string_view text, const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();

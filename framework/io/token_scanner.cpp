@@ -32,6 +32,17 @@ std::string full_name(std::string_view part, std::string_view what) {
     return part.empty() ? std::string(what) : std::string(part) + " of " + std::string(what);
 }
 
+// What is behind many a wrong number, for those who do not see it.
+std::string_view why_not(std::string_view text) {
+    if (std::any_of(text.begin(), text.end(), [](char one) { return static_cast<unsigned char>(one) > 0x7f; })) {
+        return ", with a sign that is not ASCII: type it anew";
+    }
+    if (text.starts_with("//")) {
+        return ": comments begin with #";
+    }
+    return text.find(',') != std::string_view::npos ? ": numbers have a point, and blanks between them" : "";
+}
+
 }  // namespace
 
 bool is_blank(char character) {
@@ -81,7 +92,8 @@ Token TokenScanner::peek() {
 }
 
 void TokenScanner::fail(const Token& token, std::string_view expected) const {
-    fail(token, expected, token.is_end() ? "the end of the file" : quoted(token.text));
+    fail(token, expected,
+         token.is_end() ? "the end of the file" : quoted(token.text) + std::string(why_not(token.text)));
 }
 
 void TokenScanner::fail(const Token& token, std::string_view expected, std::string_view found) const {
