@@ -43,11 +43,11 @@ def step(steps: list[Step]) -> Step:
 
 
 def _graded(kit: BuiltKit, step: Step, source: str, folder: Path) -> tuple[StepResult, list[str]]:
-    """The visible part, named where it crashed, and what was said while somebody waits."""
-    submission = Submission("somebody", {step.id: source.encode()}, {})
-    result = QuickLook(kit, step, LimitsOnly(), folder, lambda _: None).look(source)
+    """The visible part, as `watch` looks at it, named where it crashed, and what was said while somebody waits."""
+    submission, own = Submission("somebody", {step.id: source.encode()}, {}), kit.in_one_process()
+    result = QuickLook(own, step, LimitsOnly(), folder, lambda _: None).look(source)
     said: list[str] = []
-    name_crash(kit.in_one_process(), submission, LimitsOnly(), said.append, [result])
+    name_crash(own, submission, LimitsOnly(), said.append, [result])
     return result, said
 
 
