@@ -32,6 +32,8 @@ _ENDINGS = {
     "reset": Ending(Keys("[y/N]", "y\n", "is the stub again")),
     "watch": Ending(Keys("Passed", "q", "Stopped watching.")),
 }
+# What draws for half a minute, or for a whole one, draws small pictures here: who reads is to get beautiful ones.
+_SMALL = {"finale": ("--size", "160x160", "--samples", "1"), "gallery": ("--size", "64x48")}
 # What is done before makes no difference to these; but `release` refuses a folder that is there.
 _SAME_ANSWER = {"demo", "inspect", "release", "render"}
 
@@ -125,6 +127,8 @@ class Typist:
                 package = self.workshop.original.root  # which has their programs
         if name in ("inspect", "render", "view") and "--impl" not in words:
             words = [*words, "--impl", "reference"]  # nobody knows what the steps are there, or has built the copy's
+        if name in _SMALL and "--new" not in words:
+            words = [*words, *_SMALL[name]]
         start = [sys.executable, "-P", "-m", "raysteps"]
         if name == "view":
             if not _can_view(self.workshop.original):
