@@ -206,12 +206,8 @@ def _short_blend(draw: RandomSource) -> Inputs:
 
 
 def _nothing_left(draw: RandomSource) -> Inputs:
-    """The normals cancel each other out, the mesh has none, or all that the blend has points along the ray."""
+    """The normals cancel each other out, or the mesh has none."""
     face = _simple_face()
-    if draw.chance(0.4):
-        along = (0.0, 0.0, -1.0)
-        a, b, c = (replace(corner, normal=along) for corner in (face.a, face.b, face.c))
-        return _shading(Face(a, b, c), _EVEN, along)
     normal = draw.axis() if draw.chance(0.5) else (0.0, 0.0, 0.0)
     a, b = replace(face.a, normal=normal), replace(face.b, normal=times(-1, normal))
     weights = (0.5, 0.5, 0.0)
