@@ -153,7 +153,7 @@ def test_a_point_on_the_border_of_its_square_may_be_rounded_across() -> None:
         (lambda p: _with_shares(p, np.repeat(_shares(p)[:, :1], _SIDE, axis=1)), "the squares of a column"),
         (lambda p: _with_shares(p, np.floor(_shares(p) * 16) / 16 + 0.01), "a few places of their squares"),
         (lambda p: _with_shares(p, _one_stays(_shares(p))), "some squares have their point always"),
-        (lambda p: _with_shares(p, _shares(p) * [1, 0] + [0, 0.5]), "do not lie everywhere"),
+        (lambda p: _with_shares(p, _shares(p) * [1, 0] + [0, 0.5]), "and the other one is not"),
         (
             lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[np.arange(len(p)) // 2]) / _SIDE,
             "the same for different streams",
@@ -259,7 +259,8 @@ def test_squares_that_never_have_a_point_are_told_apart_from_those_that_are_empt
     assert _verdict(points, inputs).problem == "a square has no point, or two"
 
 
+@pytest.mark.parametrize(("side", "times"), [(2, 64), (64, 2)])
 @pytest.mark.parametrize(("factor", "far"), [(1.9, ""), (64.0, "far ")])
-def test_points_beyond_the_unit_square_are_told_by_how_far(factor: float, far: str) -> None:
-    problem = _verdict(_right(2, 64) * factor, _inputs(2, 64)).problem
+def test_points_beyond_the_unit_square_are_told_by_how_far(factor: float, far: str, side: int, times: int) -> None:
+    problem = _verdict(_right(side, times) * factor, _inputs(side, times)).problem
     assert problem == f"a point lies outside of the unit square, {far}beyond 1"
