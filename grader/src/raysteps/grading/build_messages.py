@@ -22,9 +22,9 @@ _MICROSOFT_ERROR = re.compile(
     r"^(?P<path>[^\n(]+)\((?P<line>\d{1,7})(?:,(?P<column>\d{1,7}))?\): (?:fatal )?error (?P<text>C\d+: .+)$", re.M
 )
 # What follows the first words of a message is read once, however often these words come again: a source can shape them.
-_MISSING = re.compile(
-    r"undefined reference to [`'](?P<name>[^`'\n]+)'"
-    r"|(?:undefined|unresolved external) symbol:? \"?(?P<other>[^\s\"][^\"\n]*)"
+_MISSING = re.compile(  # what is a warning only is nowhere to be found yet, such as what a box will have
+    r"(?<!warning: )undefined reference to [`'](?P<name>[^`'\n]+)'"
+    r"|(?<!warning: )(?:undefined|unresolved external) symbol:? \"?(?P<other>[^\s\"][^\"\n]*)"
 )
 _TWICE = re.compile(
     r"(?:multiple definition of|duplicate symbol:?) [`'\"]?(?P<name>[^`'\"\n]+)"
@@ -85,7 +85,7 @@ def _more(errors: list[_Error]) -> str:
 
 # What errors mean that many meet first who are new to C++ and glm, as GCC, Clang and Microsoft's compiler write them.
 # JavaScript reads these patterns, too.
-_STRAY_BRACE = r"expected declaration before '}'|extraneous closing brace|C2059: .*'}'"
+_STRAY_BRACE = r"expected declaration before '}'|extraneous closing brace"
 IN_OTHER_WORDS = (
     (
         _STRAY_BRACE,
