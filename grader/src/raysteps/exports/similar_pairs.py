@@ -161,7 +161,7 @@ def winnowed(hashes: Hashes) -> list[int]:
 # Pairs that have more of these in common than others.
 
 USUAL = 0.75  # what more than this share of all have says nothing about two of them
-LONG = 2.0  # times what half of all files of a step have of their own: what is more of it counts for nothing
+LONG = 2.0  # times what half of a step's files that have something of their own have: what is more of it counts for nothing
 SHORT = 60.0  # fingerprints: code of this weight that is all alike is half as alike as long code
 LOOK = 0.3  # from this likeness on a pair is worth a look
 MAX_SUBMISSIONS = 2000
@@ -238,7 +238,8 @@ class _Files:
 def _unpadded(own: Matrix, steps: Sequence[str]) -> Matrix:
     """What is each file's own, without what it is longer than others of its step."""
     all_steps = np.array(steps)
-    most = {step: max(SHORT, LONG * float(np.median(own[all_steps == step]))) for step in set(steps)}
+    written = {step: own[(all_steps == step) & (own > 0)] for step in set(steps)}  # no stubs
+    most = {step: max(SHORT, LONG * float(np.median(some))) if some.size else SHORT for step, some in written.items()}
     return np.minimum(own, np.array([most[step] for step in steps], np.float32))
 
 
