@@ -97,6 +97,7 @@ percent_per_day = 10
         ("parts = [1, 2", ":1:14: is not TOML: .*; the ] that ends the list is missing"),
         ("seed = ", ":1:8: is not TOML: .*; nothing stands behind the ="),
         ("[late_policy]\ndeadline = 2026-11-31", ":2:12: is not TOML: .*; there is no such day or time"),
+        ("[late_policy]\ndeadline = 2026-11-20T23:59:00 CET", ":2:32: is not TOML: .*; behind a time stand Z or"),
         ("[late_policy]\ndeadline = 20.11.2026", ":2:17: is not TOML: .*; a day is written as 2026-11-20"),
         ("[late_policy]\ndeadline = 2026-11-20 23:59", ":2:23: is not TOML: .*; a time is written with its seconds"),
         ("[late_policy]\npercent_per_day = 10%", ":2:21: is not TOML: .*; a number stands alone, such as 10 or 2.5"),
