@@ -247,7 +247,7 @@ def test_rays_of_a_lens_are_told_by_where_they_meet(share: float, aside: float, 
     ("reach", "beside", "said"),
     [
         (0.5, False, "a point lies off the sphere, though in a direction in which the sphere is seen"),
-        (0.5, True, "a point lies off the sphere, and so do all others, behind who looks at it"),
+        (0.5, True, "a point lies off the sphere, and all of them behind the place that is lit"),
         (-1.0, False, "all points lie on the side of the sphere that is not seen"),
     ],
 )

@@ -153,7 +153,7 @@ def test_a_point_on_the_border_of_its_square_may_be_rounded_across() -> None:
         (lambda p: _with_shares(p, np.repeat(_shares(p)[:, :1], _SIDE, axis=1)), "the squares of a column"),
         (lambda p: _with_shares(p, np.floor(_shares(p) * 16) / 16 + 0.01), "a few places of their squares"),
         (lambda p: _with_shares(p, _one_stays(_shares(p))), "some squares have their point always"),
-        (lambda p: _with_shares(p, _shares(p) * [1, 0] + [0, 0.5]), "and the other one is not"),
+        (lambda p: _with_shares(p, _shares(p) * [1, 0] + [0, 0.5]), "only one of x and y"),
         (
             lambda p: (np.floor(p * _SIDE) + ((p * _SIDE) % 1)[np.arange(len(p)) // 2]) / _SIDE,
             "the same for different streams",

@@ -222,7 +222,7 @@ _TURNED = 0.8  # of the weight of the same number
 _DIRECTION = 3  # numbers in a row that are turned: a whole direction, whatever stands beside it
 _FLAGS = frozenset({"0", "1"})
 _MOSTLY = 0.6
-_REMEMBERED = 1 << 14  # answers: each is compared with those of all mistakes, and these with those of all students
+_REMEMBERED = 1 << 12  # answers: each is compared with those of all mistakes
 
 
 def _close(one: str, other: str) -> bool:

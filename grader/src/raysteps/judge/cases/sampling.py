@@ -94,7 +94,7 @@ _SQUARES = "the points of different squares have to do with each other"
 _STREAMS = "points are the same for different streams"
 _SOME_SQUARES = "some squares have their point always at the same place"
 _FEW_PLACES = "points lie at a few places of their squares only"
-_ON_A_LINE = "x of the points is at chance in their squares, or y, and the other one is not"
+_ON_A_LINE = "only one of x and y of the points is at chance in its square"
 _ROUNDING = 1e-6  # of a place in a square: float knows it no better
 _SHARED = 1e-4  # of a square: so near are places that one random number has made
 

@@ -482,7 +482,7 @@ def _beside(heights: Numbers, local: Numbers) -> str:
     """Where points off a sphere lie for who looks at it. `heights`: of directions, in that of the cap that it fills.
     `local`: the directions, with the way to the centre as z."""
     if float(local[:, 2].max()) < 0:
-        return "and so do all others, behind who looks at it"
+        return "and all of them behind the place that is lit"
     if float(heights.max()) <= _SEEN:
         return "though in a direction in which the sphere is seen"
     return "in a direction in which the sphere is not seen" if float(heights.min()) <= _SEEN else "and so do all others"
