@@ -1,6 +1,7 @@
 """What is said of words that no command knows, and to a reader who has read enough."""
 
 import errno
+import io
 import os
 import re
 import subprocess
@@ -118,6 +119,9 @@ def test_no_word_is_a_command_to_github_actions() -> None:
     words = [sys.executable, "-P", "-m", "raysteps", "##[error]x"]
     said = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "GITHUB_ACTIONS": "true"}).stderr
     assert "# #[error]x: there is no such command" in said
+    written = io.StringIO()
+    app._ActionsLog(written).writelines(["a\n", "::error::b"])
+    assert written.getvalue() == "a\n: :error::b"
 
 
 @pytest.mark.parametrize("word", sorted(app._MEANT))

@@ -223,8 +223,8 @@ def test_autograder_is_python() -> None:
 
 
 def test_no_form_of_a_command_is_left() -> None:
-    assert harmless_log("a ##[set-output name=x]1\n  ::error::b\nc::d ###[x") == (
-        "a # #[set-output name=x]1\n  : :error::b\nc::d ## #[x"
+    assert harmless_log("a ##[set-output name=x]1\n  ::error::b\nc::d ###[x\r ::e") == (
+        "a # #[set-output name=x]1\n  : :error::b\nc::d ## #[x\r : :e"
     )
 
 

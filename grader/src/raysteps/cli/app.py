@@ -5,7 +5,7 @@ import errno
 import gc
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
@@ -194,7 +194,10 @@ class _ReaderIsGone(BrokenPipeError):
 
 
 class _ActionsLog:
-    """A stream of which GitHub Actions takes no line for a command: what was handed in is printed, too."""
+    """A stream of which GitHub Actions takes no line for a command: what was handed in is printed, too.
+
+    Nobody can tell whether it goes to the log: what a job writes into a file or a pipe is changed as well. A program
+    that prints by itself is not."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
@@ -202,6 +205,9 @@ class _ActionsLog:
     def write(self, text: str) -> int:
         self._stream.write(harmless_log(text))
         return len(text)
+
+    def writelines(self, lines: Iterable[str]) -> None:
+        self.write("".join(lines))
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)

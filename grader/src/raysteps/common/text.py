@@ -31,12 +31,12 @@ def one_line(text: str) -> str:
     return printable(text).translate(_BLANKS)
 
 
-_COMMAND = re.compile(r"^([^\S\n]*)::", re.MULTILINE)
+_COMMAND = re.compile(r"(^|[\r\n])([^\S\r\n]*)::")  # a lone \r ends a line there, too
 
 
 def harmless_log(text: str) -> str:
     """The log of GitHub Actions takes a line that begins with two colons for a command, and `##[` anywhere in it."""
-    return _COMMAND.sub(r"\1: :", text).replace("##[", "# #[")
+    return _COMMAND.sub(r"\1\2: :", text).replace("##[", "# #[")
 
 
 def seen(text: str) -> str:
