@@ -26,8 +26,8 @@ Belongs = Callable[[str], bool]  # whether a file counts, by its place in the re
 
 _PROGRAMS = (
     "ar", "bwrap", "c++", "cc", "ccache", "chromium", "chromium-headless-shell", "clang", "clang++", "cmake", "git",
-    "g++", "ld", "make", "ninja", "node", "povray", "sqlite3", "wine", "x86_64-w64-mingw32-g++-posix", "xdotool", "Xvfb",
-    "zip",
+    "g++", "ld", "make", "ninja", "node", "povray", "sqlite3", "wine", "x86_64-w64-mingw32-g++-posix", "xdotool",
+    "Xvfb", "zip",
 )  # fmt: skip
 _SETTINGS = re.compile(r"(CMAKE|RAYSTEPS|PYTEST|CXX|CPP|CC|LD|CFLAGS|LDFLAGS|TMPDIR|LANG|LC|TZ)(_.*|FLAGS)?")
 _NO_SETTINGS = ("CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_BUILD_PARALLEL_LEVEL", "PYTEST_CURRENT_TEST")

@@ -164,7 +164,7 @@ class Off(str):
 
 
 def off(problem: str, times: Numbers) -> Off:
-    """Of a few such quotients all are kept, of more the deciles: samples come in any order, and numbers of any shape."""
+    """Of a few such quotients all are kept, of more the deciles: samples come in any order, numbers in any shape."""
     found = Off(problem)
     numbers = np.clip(np.nan_to_num(times.ravel(), nan=-_FAR), -_FAR, _FAR)
     kept = numbers if len(numbers) < DECILES else np.quantile(numbers, np.arange(1, DECILES + 1) / (DECILES + 1))
