@@ -82,6 +82,16 @@ def test_a_file_that_moved_to_another_step_is_found_however_both_are_padded(
     assert _alike(found) == {(0, 1)}
 
 
+def test_who_carries_earlier_code_along_is_like_nobody(
+    project: Project, steps: list[Step], public: frozenset[str], compared: Compare
+) -> None:
+    """Half of a class, into a step where little is to be written."""
+    honest = honest_class(project, steps, ["corpus", "second_corpus"], random.Random(5))
+    for one in honest[1::2]:
+        one["07-tone-mapping"] = "".join(text for step, text in sorted(one.items()) if step <= "07-tone-mapping")
+    assert _alike(compared([Handed(str(at), one) for at, one in enumerate(honest)])) == set()
+
+
 def test_half_of_a_class_may_copy_from_one_and_is_a_group(
     project: Project, steps: list[Step], public: frozenset[str], compared: Compare
 ) -> None:

@@ -182,7 +182,9 @@ def _shown(
 # The page, the table and the JSON.
 
 
-_HARDLY_READ = f"only the first {MAX_TOKENS:,} words are compared, and an honest file has 3000; look at it yourself."
+_HARDLY_READ = (
+    f"only the first {MAX_TOKENS:,} words are compared, and an honest file has fewer than 3000; look at it yourself."
+)
 
 
 def _hardly_read(handed: Sequence[Handed], public: Collection[str]) -> list[tuple[int, str]]:

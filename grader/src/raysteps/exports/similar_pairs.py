@@ -161,7 +161,7 @@ def winnowed(hashes: Hashes) -> list[int]:
 # Pairs that have more of these in common than others.
 
 USUAL = 0.75  # what more than this share of all have says nothing about two of them
-LONG = 2.0  # times what half of a step's files that have something of their own have: what is more of it counts for nothing
+LONG = 600.0  # fingerprints: the longest honest files weigh as much; what is more of a file counts for nothing
 SHORT = 60.0  # fingerprints: code of this weight that is all alike is half as alike as long code
 LOOK = 0.3  # from this likeness on a pair is worth a look
 MAX_SUBMISSIONS = 2000
@@ -228,19 +228,12 @@ def _weights(often: npt.NDArray[np.int64], amount: int) -> Matrix:
 
 @dataclass(frozen=True)
 class _Files:
-    """The weight of all that is one's own in each file, and of what of it is in each submission, in whatever step."""
+    """The weight of all that is one's own in each file, LONG at most, and of what of it is in each submission, in
+    whatever step."""
 
     rows: Sequence[tuple[int, str]]  # submission and step
     own: Matrix
     shared: Matrix
-
-
-def _unpadded(own: Matrix, steps: Sequence[str]) -> Matrix:
-    """What is each file's own, without what it is longer than others of its step."""
-    all_steps = np.array(steps)
-    written = {step: own[(all_steps == step) & (own > 0)] for step in set(steps)}  # no stubs
-    most = {step: max(SHORT, LONG * float(np.median(some))) if some.size else SHORT for step, some in written.items()}
-    return np.minimum(own, np.array([most[step] for step in steps], np.float32))
 
 
 def _compared(prints: Sequence[Mapping[str, Hashes]], given: Hashes) -> _Files:
@@ -253,7 +246,7 @@ def _compared(prints: Sequence[Mapping[str, Hashes]], given: Hashes) -> _Files:
     often = np.bincount(had, minlength=len(every))
     weights = _weights(often, max(2, len(prints)))
     weights[np.isin(every, given)] = 0
-    own = _unpadded(np.bincount(row, weights[which], len(rows)).astype(np.float32), [step for _, step in rows])
+    own = np.minimum(np.bincount(row, weights[which], len(rows)), LONG).astype(np.float32)
     wanted = np.flatnonzero((often > 1) & (weights > 0))
     column = np.full(len(every), -1)
     column[wanted] = np.arange(len(wanted))
