@@ -282,6 +282,8 @@ long wait_for_a_map() {
 }
 long open_to_wait() { return open("/proc/self/exe", O_RDONLY | O_DSYNC); }
 long open_to_wait_by_number() { return syscall(SYS_openat, AT_FDCWD, "/proc/self/exe", O_RDONLY | O_SYNC, 0); }
+long open_past_the_cache() { return open("/proc/self/exe", O_RDONLY | O_DIRECT); }
+long go_past_the_cache() { return fcntl(open("/proc/self/exe", O_RDONLY), F_SETFL, O_DIRECT); }
 long write_and_wait() {
     char byte = 0;
     const iovec one{&byte, 1};
@@ -302,6 +304,8 @@ int ask_system(const Words&) {
         {"disk for each write", open_to_wait},
         {"disk for each write by number", open_to_wait_by_number},
         {"disk for one write", write_and_wait},
+        {"disk past the cache", open_past_the_cache},
+        {"disk past the cache from now on", go_past_the_cache},
         {"events", [] { return static_cast<long>(epoll_create1(0)); }},
         {"keys", [] { return syscall(SYS_keyctl, 0, -3, 1); }},
         {"lease", ask_for_a_lease},

@@ -4,13 +4,16 @@ import os
 import shutil
 import signal
 import socket
+import struct
 import subprocess
+import sys
 import tempfile
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from sandboxes import (
@@ -283,6 +286,60 @@ def test_no_task_tells_another_anything_by_the_files_of_the_machine(sandbox: San
     before = Path("/dev/null").stat().st_mtime_ns
     assert misbehave(sandbox, "ask").outcome.stdout == ""
     assert Path("/dev/null").stat().st_mtime_ns == before
+
+
+def _filtered(machine: str, number: int, *arguments: int) -> bool:
+    """Whether the filter lets this call go, as the kernel would run it."""
+    architecture = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}[machine]
+    call = struct.pack("<IIQ6Q", number, architecture, 0, *arguments, *[0] * (6 - len(arguments)))
+    steps = struct.iter_unpack("=HBBI", syscall_filter() or b"")
+    held = to_skip = 0
+    for code, if_true, if_false, value in steps:
+        if to_skip:
+            to_skip -= 1
+        elif code == 0x20:
+            held = int.from_bytes(call[value : value + 4], "little")
+        elif code == 0x06:
+            return bool(value == 0x7FFF0000)
+        else:
+            holds = {0x15: held == value, 0x35: held >= value, 0x45: held & value != 0}[code]
+            to_skip = if_true if holds else if_false
+    raise AssertionError("the filter has no end")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="filters are for Linux")
+def test_an_argument_is_never_taken_for_the_number_of_a_call(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Such as flags that are as large as the number of openat, behind which a mode lies that nobody set."""
+    monkeypatch.setattr(os, "uname", lambda: SimpleNamespace(machine="x86_64"))
+    opening, clone, prlimit, fcntl, ioctl, waiting, unbuffered = 2, 56, 302, 72, 16, 0x101000, 0x4000
+    for allowed in (
+        (opening, 0, os.O_WRONLY | os.O_NOCTTY, waiting),
+        (opening, 0, 0o200000),
+        (clone, opening, waiting),
+        (prlimit, 0, 5),
+        (fcntl, 3, 2, waiting),
+        (fcntl, 3, 1030, unbuffered),
+        (fcntl, 3, 4, os.O_NONBLOCK),
+        (ioctl, 1, 0x5401),
+    ):
+        assert _filtered("x86_64", *allowed), allowed
+    for refused in (
+        (opening, 0, waiting),
+        (opening, 0, unbuffered),
+        (257, 0, 0, unbuffered),
+        (clone, 0x20000000),
+        (prlimit, 1),
+        (fcntl, 3, 6),
+        (fcntl, 3, 4, unbuffered),
+        (ioctl, 3, 0x40086602),
+        (ioctl, 3, 0x401C5820),
+    ):
+        assert not _filtered("x86_64", *refused), refused
+    monkeypatch.setattr(os, "uname", lambda: SimpleNamespace(machine="aarch64"))
+    assert _filtered("aarch64", 56, 0, 0, 0x4000), "a folder"
+    assert _filtered("aarch64", 25, 3, 4, 0x4000)
+    for refused in ((56, 0, 0, 0x10000), (25, 3, 4, 0x10000), (29, 3, 0x40086602)):
+        assert not _filtered("aarch64", *refused), refused
 
 
 def test_processes_are_limited(sandbox: Sandbox, misbehave: Misbehave) -> None:

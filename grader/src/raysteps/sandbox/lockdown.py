@@ -123,34 +123,49 @@ _AARCH64 = {
 _CLONE3, _OPENAT2 = 435, 437
 # Of fcntl: copies of descriptors and their flags, and a copy that is closed on exec. Other commands lock a file, watch
 # it, leave hints on it, or make whoever else opens it wait.
-_FIRST_ON_FILES, _COPY_CLOSED_ON_EXEC = 5, 1030
-_KNOWN = {"x86_64": (0xC000003E, _X86_64, 56, 302, 72), "aarch64": (0xC00000B7, _AARCH64, 220, 261, 25)}
+_SET_MODE, _FIRST_ON_FILES, _COPY_CLOSED_ON_EXEC = 4, 5, 1030
+# Of ioctl: two ways to set a file's attributes, of which one makes each write wait for the disk.
+_SET_ATTRIBUTES, _SET_MORE_ATTRIBUTES = 0x40086602, 0x401C5820
+_KNOWN = {"x86_64": (0xC000003E, _X86_64, 56, 302, 72, 16), "aarch64": (0xC00000B7, _AARCH64, 220, 261, 25, 29)}
 _OPENING = {"x86_64": ((2, _SECOND_ARGUMENT), (257, _THIRD_ARGUMENT)), "aarch64": ((56, _THIRD_ARGUMENT),)}
-_WAITING = 0x101000  # O_SYNC and O_DSYNC: each write to such a file waits for the disk
+# Each write to such a file waits for the disk: O_SYNC and O_DSYNC; and O_DIRECT, which each machine has elsewhere.
+_WAITING, _UNBUFFERED = 0x101000, {"x86_64": 0x4000, "aarch64": 0x10000}
 
 
 def _step(code: int, value: int, if_true: int = 0, if_false: int = 0) -> bytes:
     return struct.pack("=HBBI", code, if_true, if_false, value)
 
 
+def _by_argument(number: int, argument: int, *steps: bytes) -> list[bytes]:
+    """What is asked of an argument of this call alone; for what follows, the call's number is at hand again."""
+    then = [_step(_LOAD, argument), *steps, _step(_LOAD, _NUMBER)]
+    return [_step(_EQUAL, number, 0, len(then)), *then]
+
+
 def syscall_filter() -> bytes | None:
     """The instructions; none for a machine whose numbers are not known here."""
-    if sys.platform != "linux" or os.uname().machine not in _KNOWN or sys.maxsize < 1 << 32:
+    machine = os.uname().machine if sys.platform == "linux" else ""
+    if machine not in _KNOWN or sys.maxsize < 1 << 32:
         return None
-    architecture, numbers, clone, prlimit, fcntl = _KNOWN[os.uname().machine]
+    architecture, numbers, clone, prlimit, fcntl, ioctl = _KNOWN[machine]
+    unbuffered = _UNBUFFERED[machine]
     refuse = _step(_RETURN, _ERRNO | errno.EPERM)
     steps = [_step(_LOAD, _ARCHITECTURE), _step(_EQUAL, architecture, 1, 0), _step(_RETURN, _KILL)]
     steps += [_step(_LOAD, _NUMBER), _step(_AT_LEAST, _X32, 0, 1), refuse]
     for number in numbers.values():
         steps += [_step(_EQUAL, number, 0, 1), refuse]
     # Only a process's own limits, which go by the number 0: a limit can end another process.
-    steps += [_step(_EQUAL, prlimit, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_EQUAL, 0, 1, 0), refuse]
-    steps += [_step(_EQUAL, fcntl, 0, 4), _step(_LOAD, _SECOND_ARGUMENT), _step(_AT_LEAST, _FIRST_ON_FILES, 0, 2)]
-    steps += [_step(_EQUAL, _COPY_CLOSED_ON_EXEC, 1, 0), refuse]
-    # The C library falls back from clone3, whose flags a filter cannot see, to clone; so would who asks for openat2.
+    steps += _by_argument(prlimit, _FIRST_ARGUMENT, _step(_EQUAL, 0, 1, 0), refuse)
+    on_files = (_step(_AT_LEAST, _FIRST_ON_FILES, 0, 2), _step(_EQUAL, _COPY_CLOSED_ON_EXEC, 1, 0), refuse)
+    steps += _by_argument(fcntl, _SECOND_ARGUMENT, *on_files)
+    mode = (_step(_ANY_BIT, unbuffered, 0, 3), _step(_LOAD, _SECOND_ARGUMENT), _step(_EQUAL, _SET_MODE, 0, 1), refuse)
+    steps += _by_argument(fcntl, _THIRD_ARGUMENT, *mode)
+    attributes = (_step(_EQUAL, _SET_ATTRIBUTES, 1, 0), _step(_EQUAL, _SET_MORE_ATTRIBUTES, 0, 1), refuse)
+    steps += _by_argument(ioctl, _SECOND_ARGUMENT, *attributes)
+    # The C library falls back from clone3, whose flags a filter cannot see, to clone, and from openat2 to openat.
     for number in (_CLONE3, _OPENAT2):
         steps += [_step(_EQUAL, number, 0, 1), _step(_RETURN, _ERRNO | errno.ENOSYS)]
-    steps += [_step(_EQUAL, clone, 0, 3), _step(_LOAD, _FIRST_ARGUMENT), _step(_ANY_BIT, _NEW_NAMESPACES, 0, 1), refuse]
-    for number, flags in _OPENING[os.uname().machine]:
-        steps += [_step(_EQUAL, number, 0, 3), _step(_LOAD, flags), _step(_ANY_BIT, _WAITING, 0, 1), refuse]
+    steps += _by_argument(clone, _FIRST_ARGUMENT, _step(_ANY_BIT, _NEW_NAMESPACES, 0, 1), refuse)
+    for number, flags in _OPENING[machine]:
+        steps += _by_argument(number, flags, _step(_ANY_BIT, _WAITING | unbuffered, 0, 1), refuse)
     return b"".join([*steps, _step(_RETURN, _ALLOW)])
