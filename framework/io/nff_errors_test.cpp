@@ -99,16 +99,21 @@ TEST_CASE("what is written as elsewhere is told", "[nff][errors]") {
           "found `0,5`: numbers have a point, and blanks between them");
     CHECK(error_of(k_start + "//ball") ==
           "bad.nff:7:1: expected an entity (v, b, l, f, s, c, p or pp), found `//ball`: comments begin with #");
+    CHECK(error_of(k_start + "// ball").find("found `//`: comments begin with #") != std::string::npos);
+    CHECK(error_of(k_start + "//2").ends_with(", found `//2`"));
+    CHECK(error_of(k_start + "s \u22121 0 0 1") ==
+          "bad.nff:7:3: expected x of the sphere's centre, a number, "
+          "found `\\xe2\\x88\\x921`, with a sign that is not ASCII: type it anew");
 }
 
 TEST_CASE("binary junk is shown in short and printable", "[nff][errors]") {
     using namespace std::string_literals;
     CHECK(error_of("\x00\xff v"s) ==
           "bad.nff:1:1: expected an entity (v, b, l, f, s, c, p or pp), "
-          "found `\\x00\\xff`, with a sign that is not ASCII: type it anew");
-    CHECK(error_of(k_start + "s \u22121 0 0 1") ==
-          "bad.nff:7:3: expected x of the sphere's centre, a number, "
-          "found `\\xe2\\x88\\x921`, with a sign that is not ASCII: type it anew");
+          "found `\\x00\\xff`");
+    CHECK(error_of("\x89PNG\r\n\x1a\n").ends_with(", found `\\x89PNG`"));
+    CHECK(error_of("\xff\xd8,").ends_with(", found `\\xff\\xd8,`"));
+    CHECK(error_of(k_start + "\xe2\x88").ends_with(", found `\\xe2\\x88`"));
     CHECK(error_of(std::string(1000, 'z')).find("found `zzzzzzzzzzzzzzzzzzzz...`") != std::string::npos);
 }
 

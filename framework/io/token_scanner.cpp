@@ -1,6 +1,7 @@
 #include "io/token_scanner.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -32,15 +33,37 @@ std::string full_name(std::string_view part, std::string_view what) {
     return part.empty() ? std::string(what) : std::string(part) + " of " + std::string(what);
 }
 
-// What is behind many a wrong number, for those who do not see it.
-std::string_view why_not(std::string_view text) {
-    if (std::any_of(text.begin(), text.end(), [](char one) { return static_cast<unsigned char>(one) > 0x7f; })) {
-        return ", with a sign that is not ASCII: type it anew";
+// Whether it is made of signs in UTF-8, as opposed to the bytes of a picture.
+bool is_utf8_text(std::string_view token) {
+    int to_come = 0;  // bytes of the sign that was begun
+    for (const char character : token) {
+        const auto byte = static_cast<unsigned char>(character);
+        const int ones = std::countl_one(byte);  // none for ASCII, one where a sign goes on, else how many bytes it has
+        if (byte < ' ' || byte == 0x7f || ones > 4 || (ones == 1) != (to_come > 0)) {
+            return false;
+        }
+        to_come = std::max(ones == 1 ? to_come : ones, 1) - 1;
     }
-    if (text.starts_with("//")) {
+    return to_come == 0;
+}
+
+// Of words: a corner of a mesh may be `//2`.
+bool begins_a_comment(std::string_view token) {
+    return token == "//" || (token.starts_with("//") && (token[2] | ' ') >= 'a' && (token[2] | ' ') <= 'z');
+}
+
+// The mistake that is likely behind a token.
+std::string_view why_not(std::string_view token) {
+    if (!is_utf8_text(token)) {
+        return "";
+    }
+    if (begins_a_comment(token)) {
         return ": comments begin with #";
     }
-    return text.find(',') != std::string_view::npos ? ": numbers have a point, and blanks between them" : "";
+    if (std::any_of(token.begin(), token.end(), [](char one) { return static_cast<unsigned char>(one) > 0x7f; })) {
+        return ", with a sign that is not ASCII: type it anew";
+    }
+    return token.find(',') != std::string_view::npos ? ": numbers have a point, and blanks between them" : "";
 }
 
 }  // namespace
