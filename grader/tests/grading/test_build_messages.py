@@ -38,8 +38,10 @@ def test_the_students_own_file_comes_first_with_the_lines_around_it(shadows: Ste
         "It does not build: shadows.cpp:4:11: 'nope' was not declared\n"
         "    3 | int one;\n    4 | int two = nope;\n      |           ^\n    5 | int three;"
     )
-    odd = SOURCE.replace("one;", "one;  //\x0c\u2028\x85\v")
-    assert compile_message(shadows, odd, ran(output)).endswith("5 | int three;")
+    odd = SOURCE.replace("one;", "one;  //\x0c\u2028\x85\v\rodd").replace("\n", "\r\n")
+    shown = compile_message(shadows, odd, ran(output))
+    assert shown.endswith("5 | int three;")
+    assert all(" | " in line for line in shown.splitlines()[1:])
 
 
 def test_the_linkers_words_are_told_as_such(shadows: Step) -> None:
@@ -79,6 +81,7 @@ _WRONG = {
     "float f(float x) { return std::max(0.0, x); }": "of one type",
     "float f(float x) { return glm::clamp(x, 0, 1); }": "of one type",
     "float f(const std::optional<Hit>& hit) { return hit.distance; }": "ask has_value() first",
+    "Hit f(const std::optional<Hit>& hit) { return hit; }": "then write * before it",
     "float Hit::twice() { return 2.0F * distance; }": "as the header declares it",
     "void f(float x) { if (x > 0.0F) { x = 0.0F; }\nvoid g() {}": "closing brace is missing",
     "void f(const glm::vec3& v) { v.x = 0.0F; }": "change a copy",
@@ -128,6 +131,9 @@ def test_beginners_are_told_in_other_words(shadows: Step, tmp_path: Path, compil
         ("C2039: 'sqrtt': is not a member of 'std'", "declares it included"),
         ("C2819: type 'Hit' does not have an overloaded member 'operator ->'", "in place of ->"),
         ("C2440: 'return': cannot convert from 'float' to 'glm::vec3'", "another is asked for"),
+        ("C2440: 'return': cannot convert from 'std::optional<raysteps::Hit>' to 'raysteps::Hit'", "write * before it"),
+        ("C2664: 'f': cannot convert argument 1 from 'std::optional<Hit>' to 'const Hit &'", "write * before it"),
+        ("C2664: 'f': cannot convert argument 1 from 'float' to 'std::optional<Hit>'", "another is asked for"),
         ("C2146: syntax error: missing ';' before identifier 'b'", "semicolon is missing"),
         ("C2296: '^': illegal, left operand has type 'float'", "a power is std::pow"),
         ("C2084: function 'int f(void)' already has a body", "keep one of them"),
@@ -149,6 +155,30 @@ def test_microsofts_compiler_is_told_in_other_words(shadows: Step, said: str, to
         (["no member named 'cout' in namespace 'std'"], "declares it included"),
         (["could not convert 'h' from 'const Hit' to 'glm::vec3' {aka 'glm::vec<3>'}"], "another is asked for"),
         (["no viable conversion from returned value of type 'const Hit' to function return type"], "is asked for here"),
+        (["could not convert 'maybe()' from 'std::optional<Hit>' to 'Hit'"], "write * before it"),
+        (["could not convert 'hit' from 'Hit' to 'std::optional<float>'"], "another is asked for"),
+        (["could not convert 'hit' from 'std::optional<Hit>' to 'std::optional<float>'"], "another is asked for"),
+        (["conversion from 'std::optional<Hit>' to non-scalar type 'Hit' requested"], "write * before it"),
+        (["cannot convert 'const std::optional<Hit>' to 'float' in return"], "write * before it"),
+        (
+            ["invalid initialization of reference of type 'const Hit&' from expression of type 'std::optional<Hit>'"],
+            "write * before it",
+        ),
+        (["no match for 'operator>' (operand types are 'std::optional<Hit>' and 'float')"], "write * before it"),
+        (["no viable conversion from 'const std::optional<Hit>' to 'Hit'"], "write * before it"),
+        (["invalid operands to binary expression ('float' and 'const std::optional<Hit>')"], "write * before it"),
+        (["conversion from 'Hit' to non-scalar type 'Other' requested"], "another is asked for"),
+        (["cannot convert 'glm::vec3' {aka 'glm::vec<3>'} to 'float' in return"], "another is asked for"),
+        (["no match for 'operator=' (operand types are 'Hit' and 'Other')"], "another is asked for"),
+        (["no match for 'operator=' (operand types are 'std::optional<Hit>' and 'float')"], "another is asked for"),
+        (["no match for 'operator=' (operand types are 'Hit' and 'std::optional<Hit>')"], "write * before it"),
+        (["no viable overloaded '='"], "another is asked for"),
+        (["cannot initialize return object of type 'float' with an lvalue of type 'float *'"], "another is asked for"),
+        (["assigning to 'float' from incompatible type 'float *'"], "another is asked for"),
+        (["'unordered_map' in namespace 'std' does not name a template type"], "declares it included"),
+        (["no template named 'unordered_map' in namespace 'std'"], "declares it included"),
+        (["no type named 'ofstream' in namespace 'std'"], "declares it included"),
+        (["'vector' does not name a template type"], "has not met this name above"),
     ],
 )
 def test_gcc_and_clang_are_told_in_other_words(shadows: Step, said: list[str], told: str) -> None:

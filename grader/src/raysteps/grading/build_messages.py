@@ -69,7 +69,8 @@ def _context(source: str, line: int, column: int) -> str:
     lines = source.removesuffix("\n").split("\n")  # as a compiler counts them, which knows no other end of a line
     shown = []
     for number in range(max(1, line - 1), min(len(lines), line + 1) + 1):
-        shown.append(f"{number:5} | {shorten(printable(lines[number - 1]), 160)}")
+        text = printable(lines[number - 1]).removesuffix("\n").replace("\n", " ")  # a lone \r is no end
+        shown.append(f"{number:5} | {shorten(text, 160)}")
         if number == line and 0 < column <= 160:
             shown.append(f"      | {' ' * (column - 1)}^")
     return "\n".join(shown)
@@ -111,12 +112,19 @@ IN_OTHER_WORDS = (
         "A std::optional may hold nothing: ask has_value() first, then write -> in place of the dot.",
     ),
     (
+        r"(?:convert(?: '.*'| argument \d+)? from|conversion from(?: returned value of type)?|cannot convert"
+        r"|from expression of type) '(?:const )?(?:class )?std::optional<(?!.* to .*'(?:const )?std::optional<)"
+        r"|(?:no match for 'operator(?!=' \(operand types are 'std::optional)|invalid operands|C267[6-9]:)"
+        r".*'(?:const )?std::optional<",
+        "A std::optional may hold nothing: ask has_value() first, then write * before it for what it holds.",
+    ),
+    (
         r"no declaration matches|out-of-line definition of .* does not match|C2511:",
         "It must stand here as the header declares it: the same arguments, with const and & where it has them.",
     ),
     (
-        r"(?:is not a member of|no member named .* in namespace|C2039: .*is not a member of) '(?:std|glm)'"
-        r"(?!.*did you mean)",
+        r"(?:(?:is not a member of|no (?:member|type|template) named .* in namespace) '(?:std|glm)'"
+        r"|in namespace '(?:std|glm)' does not name a (?:template )?type)(?!.*did you mean)",
         "Is it spelled right, and is the header that declares it included, such as <cmath> for std::sqrt?",
     ),
     (
@@ -124,7 +132,9 @@ IN_OTHER_WORDS = (
         "What is no pointer has its members behind a dot: write . in place of ->.",
     ),
     (
-        r"could not convert .* to |no viable conversion from|C2440:",
+        r"could not convert .* to |cannot convert '|conversion from '.*' to |invalid initialization of reference"
+        r"|no match for 'operator='|no viable (?:conversion from|overloaded '=')"
+        r"|cannot initialize (?:a|return) |assigning to .* from incompatible type|C2440:|C2664:",
         "It is of one type, and another is asked for here: compare both with what the header says.",
     ),
     (
@@ -132,7 +142,7 @@ IN_OTHER_WORDS = (
         "The lines with #include that the stub has are enough: paths begin below the kit's framework or at steps/.",
     ),
     (
-        r"does not name a type|was not declared in this scope|has not been declared|unknown type name"
+        r"does not name a (?:template )?type|was not declared in this scope|has not been declared|unknown type name"
         r"|use of undeclared identifier|C2065:|C2061:|C3861:",
         "The compiler has not met this name above: is it spelled as where it is declared, and is that file included?",
     ),
