@@ -63,12 +63,12 @@ def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     assert main(["grade", "/no/such/submission"]) == 2
 
 
-@pytest.mark.parametrize("name", ["picture.jpg", "picture", "mine.v2"])
+@pytest.mark.parametrize("name", ["picture.jpg", "picture", "mine.v2", ".png"])
 def test_a_picture_of_another_kind_is_refused_before_anything_is_built(
     name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["render", "scene.nff", "-o", name]) == 2
-    assert f"{name}: pictures are written as .png or .ppm" in capsys.readouterr().err
+    assert f"{name}: pictures are written as .png or .ppm; expected a name such as mine.png" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("command", ["render", "view", "inspect"])

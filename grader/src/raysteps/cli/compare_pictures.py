@@ -54,7 +54,7 @@ def _read(path: Path) -> Pixels:
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when no channel of any pixel differs by more than rounding, else 1."""
     if arguments.out is not None and arguments.out.suffix.lower() != ".png":
-        raise UsageError(f"{arguments.out}: the difference is written as .png; expected a name that ends so")
+        raise UsageError(f"{arguments.out}: the difference is written as .png; expected a name such as gap.png")
     mine, reference = _read(arguments.mine), _read(arguments.reference)
     if mine.shape != reference.shape:
         sizes = [f"{pixels.shape[1]}x{pixels.shape[0]}" for pixels in (mine, reference)]

@@ -273,7 +273,7 @@ def _is_where_we_print(path: Path) -> bool:
 
 
 def _says_its_kind(path: Path) -> bool:
-    """By its ending; what is no file, such as a pipe or where we print, takes any."""
+    """By its ending; what is no file, such as a pipe or where we print, needs none."""
     if path.suffix.lower() in (".png", ".ppm"):
         return True
     return not path.suffix and path.exists() and (not path.is_file() or _is_where_we_print(path))
@@ -312,7 +312,7 @@ def run_words(project: Project, args: list[str]) -> int:
     impl, args = take_impl(args)
     picture = last_value(args, "-o")
     if picture is not None and not _says_its_kind(Path(picture)):
-        raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name that ends so")
+        raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name such as mine.png")
     wanted_step(project, args)  # complains before anything is built
     args = with_scene(project, args, "render")
     if place_of_scene(args) is not None and not any(word == "--spd" or word.startswith("-o") for word in args):
