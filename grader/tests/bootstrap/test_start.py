@@ -85,6 +85,7 @@ def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsy
         ("", ""),
         ("play", "play"),
         ("play --no-open", "play"),
+        ("play --help", ""),
         ("test --full", "dev"),
         ("test", "dev"),
         ("test 01", ""),

@@ -47,10 +47,12 @@ _OF_MAKERS = {"docs": (), "test": (), "dev": ("format", "lint")}  # commands, an
 def set_for(words: Sequence[str]) -> str:
     """What a command needs beside the usual set of its kit: nothing for most, nor to say how it is used."""
     command, *rest = words or [""]
+    if _HELP & {*rest}:
+        return ""
     if command == PLAY:
         return PLAY
     some = _OF_MAKERS.get(command)
-    if some is None or _HELP & {*rest}:
+    if some is None:
         return ""
     first = rest[0] if rest else ""
     needs_them = first in some if some else not first or first.startswith("-")  # `test 01` is refused
