@@ -118,7 +118,7 @@ percent_per_day = 10
         ("[steps]\n1 = 2026-10-12T10:00:00", ":2:1: steps: expected .*; found 2026-10-12 10:00:00"),
         (
             "[points]\n02 = 25\n03 = 0",
-            ":3:1: points: expected a table of steps, each with its points (more than 0), .*; found 0",
+            ":3:1: points: expected a table of steps, each with its points (more than 0, at most 10000), .*; found 0",
         ),
     ],
 )

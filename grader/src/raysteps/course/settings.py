@@ -76,7 +76,7 @@ _EXPECTED = {
     "parts": "a list of the kit's parts, such as [1, 2]",
     "steps": 'steps such as "1-4", a list of them, or a table with the day on which they are given out, such as '
     '"1-2" = 2026-10-12',
-    "points": 'a table of steps, each with its points (more than 0), such as "02" = 25',
+    "points": 'a table of steps, each with its points (more than 0, at most 10000), such as "02" = 25',
     "seed": "a whole number from 0 to 999999999999999999",
     "late_policy": "the name of a file, or a table with its deadline and percent_per_day",
 }
