@@ -73,7 +73,7 @@ SHOTS = {
     "12-after": Shot("lessons/soft-shadows.pbrt", ("--step", "12", "--samples", "256")),
     "12-focus": Shot("lessons/lens.pbrt", ("--step", "12", "--samples", "256")),
     "13-before": Shot("lessons/cornell.pbrt", ("--step", "12", "--samples", "64"), _SQUARE),
-    "13-after": Shot("lessons/cornell.pbrt", ("--step", "13", "--accel", "wide", "--samples", "256"), _SQUARE),
+    "13-after": Shot("lessons/cornell.pbrt", ("--step", "13", "--samples", "256"), _SQUARE),
     "14-before": Shot("lessons/metals.pbrt", ("--step", "13", "--samples", "256")),
     "14-after": Shot("lessons/metals.pbrt", ("--step", "14", "--samples", "256")),
     "14-glass": Shot("lessons/glass-balls.pbrt", ("--step", "14", "--samples", "256")),
@@ -159,7 +159,7 @@ def sphereflake(kit: BuiltKit) -> Pixels:
 
 def still_life(kit: BuiltKit) -> Pixels:
     """The picture at the top of the README: all of part two."""
-    args = ("--step", "15", "--accel", "wide", "--size", "640x360", "--samples", "256")
+    args = ("--step", "15", "--size", "640x360", "--samples", "256")
     return reference_picture(kit, kit.project.scenes / "lessons" / "still-life.pbrt", args)
 
 
