@@ -332,7 +332,8 @@ class StudentBuild:
         if listed.outcome.code != 0 or listed.outcome.timed_out or len(text) >= _MAX_SYMBOLS:
             return Compiled(None, compiled, unreadable=True)
         symbols = parse_symbols(text)
-        strange = sorted(name for name in symbols.wanted - self._kit.allowed(step) if of_somebody(name))
+        foreign = symbols.wanted - self._kit.allowed(step)
+        strange = sorted(name for name in foreign if of_somebody(name))
         forbidden = tuple(name for name in strange if name in self._kit.known() or "5Catch" in name)
         missing = tuple(shown for name, shown in self._kit.functions(step).items() if name not in symbols.defined)
         undefined = self._shown(raw, [name for name in strange if name not in forbidden], limits)
@@ -344,7 +345,7 @@ class StudentBuild:
         data = ran.outputs.get("library")
         if not data:
             return Compiled(None, ran)
-        nowhere = sorted(_of_no_library(ran) & symbols.wanted - self._kit.allowed(step))
+        nowhere = sorted(_of_no_library(ran) & foreign)
         if nowhere:  # such as what is declared as C and was forgotten
             return Compiled(None, compiled, undefined=self._shown(raw, nowhere, limits))
         return Compiled(self._write_library(step, data), compiled)
