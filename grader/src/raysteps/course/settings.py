@@ -54,6 +54,7 @@ class Course:
 
 
 _Line = Annotated[str, Meta(min_length=1, max_length=200, pattern=r"^\S[^\n\r]*$")]
+_MOST_POINTS = 10_000
 _Names = _Line | Annotated[int, Meta(ge=0, le=99)]
 
 
@@ -65,7 +66,7 @@ class _Table:
     term: _Line = ""
     parts: Annotated[list[Annotated[int, Meta(ge=1, le=9)]], Meta(min_length=1)] = field(default_factory=lambda: [1])
     steps: _Names | list[_Names] | dict[str, date] | None = None
-    points: dict[str, Annotated[float, Meta(gt=0, le=10_000)]] = field(default_factory=dict)
+    points: dict[str, Annotated[float, Meta(gt=0, le=_MOST_POINTS)]] = field(default_factory=dict)
     seed: Annotated[int, Meta(ge=0, le=999_999_999_999_999_999)] | None = None
     late_policy: Text | dict[str, object] | None = None
 
@@ -76,7 +77,7 @@ _EXPECTED = {
     "parts": "a list of the kit's parts, such as [1, 2]",
     "steps": 'steps such as "1-4", a list of them, or a table with the day on which they are given out, such as '
     '"1-2" = 2026-10-12',
-    "points": 'a table of steps, each with its points (more than 0, at most 10000), such as "02" = 25',
+    "points": f'a table of steps, each with its points (more than 0, at most {_MOST_POINTS}), such as "02" = 25',
     "seed": "a whole number from 0 to 999999999999999999",
     "late_policy": "the name of a file, or a table with its deadline and percent_per_day",
 }
