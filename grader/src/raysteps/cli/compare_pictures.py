@@ -7,6 +7,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError, reason
+from raysteps.common.files import PNG_SIGNATURE
 from raysteps.course.project import Project
 from raysteps.images.compare import (
     TOLERANCE,
@@ -40,7 +41,7 @@ def _read(path: Path) -> Pixels:
             start = file.read(4)
     except OSError as error:
         raise UsageError(f"{path}: cannot be read: {reason(error)}; {_EXPECTED}") from error
-    is_png = start == b"\x89PNG"
+    is_png = start == PNG_SIGNATURE[:4]  # the rest shows damage
     if start and not is_png and start[:1] != b"P":
         raise UsageError(f"{path}: is neither a PNG nor a PPM; {_EXPECTED}")
     try:

@@ -15,6 +15,8 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"  # the first bytes of a PNG
+
 # Locks between processes. A lock goes with the process that holds it, however that ends.
 
 if sys.platform == "win32":

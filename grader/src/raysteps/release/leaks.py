@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import UTF16_MARKS, UsageError, reason
+from raysteps.common.files import PNG_SIGNATURE
 from raysteps.common.text import count, join_and
 from raysteps.release.page_parts import Problem, folder_of_page, is_part, look_into
 from raysteps.release.secrets import Secrets, words_in
@@ -19,7 +20,6 @@ from raysteps.updater.release_list import CACHE, HISTORY, all_places
 
 # What a file of a release may be: text, or a PNG picture that is nothing else.
 
-PNG = b"\x89PNG\r\n\x1a\n"
 LIVE_PROGRAM = b"globalThis.raystepsProgram = "  # of the live figures of a site
 # The first bytes of what somebody may leave behind, for better words. What is not known is refused just as well.
 _COMPILED = (
@@ -36,7 +36,7 @@ _NOT_OF_TEXT = bytes(set(range(32)) - set(b"\t\n\r\f"))
 
 def png_chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
     """Kind and content of each, up to the end or to the first that is cut off."""
-    at, kind = len(PNG), b""
+    at, kind = len(PNG_SIGNATURE), b""
     while at + 12 <= len(data) and kind != b"IEND":
         size, kind = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
         yield kind, data[at + 8 : at + 8 + size]
@@ -45,7 +45,7 @@ def png_chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
 
 def _is_whole_picture(data: bytes) -> bool:
     """Chunks of known kinds with right sums up to the last byte, and pixels that are pixels."""
-    made, pixels, kinds = [PNG], b"", []
+    made, pixels, kinds = [PNG_SIGNATURE], b"", []
     for kind, body in png_chunks(data):
         made += [len(body).to_bytes(4, "big"), kind, body, zlib.crc32(kind + body).to_bytes(4, "big")]
         kinds.append(kind)
@@ -70,7 +70,7 @@ def _is_text(data: bytes) -> bool:
 
 def strange(data: bytes) -> str | None:
     """What is wrong with a file of another shape."""
-    if data.startswith(PNG):
+    if data.startswith(PNG_SIGNATURE):
         return None if _is_whole_picture(data) else "a PNG that is damaged, or that holds more than a picture"
     if data.startswith(_COMPILED):
         return "something compiled, which a release has none of"
@@ -108,7 +108,7 @@ def _inflated(data: bytes) -> bytes:
 
 def _png(place: str, data: bytes) -> Iterator[Piece]:
     """All chunks but the pixels; compressed ones as they are meant, and what follows the end."""
-    at = len(PNG)
+    at = len(PNG_SIGNATURE)
     for kind, body in png_chunks(data):
         at += 12 + len(body)
         if kind == b"IDAT":
@@ -150,7 +150,7 @@ def _members(data: bytes) -> Iterator[tuple[str, bytes]]:
 
 def pieces(place: str, data: bytes, depth: int = 0) -> Iterator[Piece]:
     """Everything that can be read."""
-    if data.startswith(PNG):
+    if data.startswith(PNG_SIGNATURE):
         yield from _png(place, data)
     elif data.startswith(UTF16_MARKS):
         yield Piece(place, data.decode("utf-16", "replace"))

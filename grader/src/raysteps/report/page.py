@@ -22,6 +22,7 @@ from PIL import Image
 
 from raysteps import __version__
 from raysteps.common.errors import reason
+from raysteps.common.files import PNG_SIGNATURE
 
 _UNSAFE = {ord(sign): f"\\u{ord(sign):04x}" for sign in "<>&\u2028\u2029"}
 _ENDING = re.compile(r"</|<!--", re.IGNORECASE)
@@ -129,7 +130,6 @@ def render_page(
 
 # Pictures that travel inside a page.
 
-_MAGIC = b"\x89PNG\r\n\x1a\n"
 _HEADER = 33  # bytes: the signature and the chunk that holds the size
 
 
@@ -164,7 +164,7 @@ def picture_data(path: Path) -> PictureData:
 
 def picture_of(data: bytes) -> PictureData | None:
     """None where the bytes are no PNG."""
-    if not data.startswith(_MAGIC) or len(data) < _HEADER or data[12:16] != b"IHDR":
+    if not data.startswith(PNG_SIGNATURE) or len(data) < _HEADER or data[12:16] != b"IHDR":
         return None
     return PictureData(_uri(data), int.from_bytes(data[16:20]), int.from_bytes(data[20:24]))
 

@@ -4,6 +4,7 @@ import codecs
 import re
 from dataclasses import dataclass
 
+from raysteps.common.files import PNG_SIGNATURE
 from raysteps.common.text import join_and
 from raysteps.submission.entries import RejectedFile
 
@@ -22,7 +23,7 @@ _DOCUMENTS = (
     (b"{\\rtf", "an RTF document"),
     (b"\xd0\xcf\x11\xe0", "an office document"),
     (b"\x1f\x8b", "a compressed file"),
-    (b"\x89PNG", "a picture"),
+    (PNG_SIGNATURE[:4], "a picture"),
     (b"\xff\xd8\xff", "a picture"),
     (b"!<arch>", "a compiled library"),
 )
