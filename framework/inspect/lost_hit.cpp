@@ -123,7 +123,7 @@ private:
 
 std::optional<LostHit> find_lost_hit(const RayNode& node, float limit, const SurfaceList& surfaces,
                                      const Accelerator& accelerator, const SearchRecorder& recorder) {
-    const Unheard unheard;
+    const RecorderPause unheard;
     const Nearest nearest = nearest_of(surfaces, node.ray);
     if (nearest.surface == nullptr || !(nearest.hit.distance < limit)) {
         return std::nullopt;

@@ -83,7 +83,7 @@ void RayRecorder::area_light_sampled(RayNumber ray, std::size_t light, const Lig
 
 void RayRecorder::area_light_handed_on(RayNumber /*ray*/, const DirectSample& sample) {
     if (lamp_ != nullptr) {
-        const Unheard unheard;
+        const RecorderPause unheard;
         lamp_->scatter_pdf = sample.scatter_pdf;
         lamp_->weight = power_heuristic(sample.pdf, sample.scatter_pdf);
     }
@@ -124,7 +124,7 @@ bool RayRecorder::search_any(RayNode* node, const SceneQuery& scene, const Ray& 
     if (!blocked) {
         check(*node, distance);
     } else if (const Surface* surface = search_.blocker(distance)) {
-        const Unheard unheard;
+        const RecorderPause unheard;
         if (const std::optional<HitRecord> hit = surface->hit(ray)) {
             describe_hit_of(*node, *hit, surface);
         }

@@ -30,9 +30,9 @@ SearchCounts& SearchCounts::operator+=(const SearchCounts& other) {
 
 SearchRecorder* listening_recorder() { return t_listening; }
 
-Unheard::Unheard() : before_(std::exchange(t_listening, nullptr)), stats_(thread_stats()) {}
+RecorderPause::RecorderPause() : before_(std::exchange(t_listening, nullptr)), stats_(thread_stats()) {}
 
-Unheard::~Unheard() {
+RecorderPause::~RecorderPause() {
     t_listening = before_;
     thread_stats() = stats_;
 }
@@ -113,7 +113,7 @@ void SearchRecorder::surface(const Surface& surface, const std::optional<HitReco
 
 const Surface* SearchRecorder::surface_of_hit(const Ray& ray, const HitRecord& hit) const {
     const Surface* found = nullptr;
-    const Unheard unheard;
+    const RecorderPause unheard;
     for (const auto& [surface, distance] : hits_) {
         const bool earlier = found == nullptr || surface->order() < found->order();
         if (distance == hit.distance && earlier) {

@@ -68,12 +68,12 @@ private:
 [[nodiscard]] SearchRecorder* listening_recorder();
 
 /// Asks without being heard or counted.
-class Unheard {
+class RecorderPause {
 public:
-    Unheard();
-    ~Unheard();
-    Unheard(const Unheard&) = delete;
-    Unheard& operator=(const Unheard&) = delete;
+    RecorderPause();
+    ~RecorderPause();
+    RecorderPause(const RecorderPause&) = delete;
+    RecorderPause& operator=(const RecorderPause&) = delete;
 
 private:
     SearchRecorder* before_;

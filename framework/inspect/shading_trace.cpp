@@ -21,7 +21,7 @@ void describe(const Light& light, int step, const HitRecord& hit, LightRecord& r
 }  // namespace
 
 void describe_lights(const Scene& scene, const StepOptions& options, const HitRecord& hit, RayNode& node) {
-    const Unheard unheard;
+    const RecorderPause unheard;
     if (options.step < 4) {  // all lights count, and nobody asked for them one by one
         node.lights.resize(scene.lights.size());
         for (std::size_t i = 0; i < node.lights.size(); ++i) {
@@ -40,7 +40,7 @@ void describe_lights(const Scene& scene, const StepOptions& options, const HitRe
 }
 
 void describe_hit(const StepOptions& options, const RayNode& node, HitTrace& trace) {
-    const Unheard unheard;
+    const RecorderPause unheard;
     const HitRecord& hit = trace.hit;
     trace.point = point_at(node.ray, hit.distance);
     if (node.role == RayRole::shadow) {

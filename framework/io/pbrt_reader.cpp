@@ -193,7 +193,7 @@ private:
     // mirror of its own.
     void begin_world(const PbrtScanner& scanner, const Token& token) {
         in_world_ = true;
-        state_ = PbrtState{};
+        state_ = PbrtGraphicsState{};
         const Matrix to_world = glm::inverse(to_camera_);
         if (glm::determinant(glm::dmat3(to_world)) > 0.0) {
             mirror_ = glm::scale(Matrix(1.0), glm::dvec3(-1.0, 1.0, 1.0));
@@ -246,8 +246,8 @@ private:
 
     const std::filesystem::path* folder_;
     PbrtMaterials materials_;
-    PbrtState state_;
-    std::vector<PbrtState> stack_;
+    PbrtGraphicsState state_;
+    std::vector<PbrtGraphicsState> stack_;
     Matrix to_camera_{1.0};
     Matrix mirror_{1.0};
     float fov_ = 90.0F;

@@ -19,7 +19,7 @@
 namespace raysteps {
 
 /// What AttributeBegin keeps and AttributeEnd brings back.
-struct PbrtState {
+struct PbrtGraphicsState {
     glm::dmat4 transform{1.0};
     PbrtMaterial material;
     Color emission{0.0F};   ///< of an area light
@@ -30,7 +30,8 @@ struct PbrtState {
 /// folder no meshes are read. Each function reads what follows the word of a directive.
 class PbrtWorld {
 public:
-    PbrtWorld(Scene& scene, const PbrtState& state, const glm::dmat4& mirror, const std::filesystem::path* folder)
+    PbrtWorld(Scene& scene, const PbrtGraphicsState& state, const glm::dmat4& mirror,
+              const std::filesystem::path* folder)
         : scene_(scene), state_(state), to_world_(mirror * state.transform), folder_(folder) {}
 
     void read_shape(PbrtScanner& scanner, const Token& token);
@@ -54,7 +55,7 @@ private:
     [[nodiscard]] glm::vec3 placed(const PbrtScanner& scanner, const Token& token, const glm::vec3& point) const;
 
     Scene& scene_;
-    const PbrtState& state_;
+    const PbrtGraphicsState& state_;
     glm::dmat4 to_world_;  // of the shape
     const std::filesystem::path* folder_;
 };

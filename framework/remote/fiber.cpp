@@ -2,21 +2,21 @@
 
 #include <cxxabi.h>
 #include <utility>
-#include "remote/quick_place.hpp"
+#include "remote/asm_context.hpp"
 #include "remote/stack.hpp"
-#include "remote/system_place.hpp"
+#include "remote/system_context.hpp"
 
 namespace raysteps::remote {
 
 namespace {
 
-#if RAYSTEPS_QUICK_PLACE && !RAYSTEPS_SANITIZED && !defined(RAYSTEPS_PORTABLE_FIBERS)
-using Place = QuickPlace;
+#if RAYSTEPS_ASM_CONTEXT && !RAYSTEPS_SANITIZED && !defined(RAYSTEPS_PORTABLE_FIBERS)
+using Place = AsmContext;
 #else
-using Place = SystemPlace;
+using Place = SystemContext;
 #endif
 
-/// What the C++ runtime notes of a thread's exceptions, as the ABI of GCC and Clang lays it out. A fiber that stops in
+/// What the C++ runtime notes of a thread's exceptions, as the ABI of GCC and Clang lays it out. A fiber that yields in
 /// a handler takes it along.
 struct Exceptions {
     void* caught = nullptr;
@@ -41,7 +41,7 @@ struct Fiber::State {
 };
 
 Fiber::Fiber(std::function<void()> body) : body_(std::move(body)), state_(std::make_unique<State>()) {
-    begin_at(state_->inside, state_->stack, &Fiber::enter);
+    make_context_at(state_->inside, state_->stack, &Fiber::enter);
 }
 
 Fiber::~Fiber() = default;
@@ -54,7 +54,7 @@ void Fiber::enter() {
         self.unhandled_ = std::current_exception();
     }
     self.ended_ = true;
-    self.stop();
+    self.yield();
 }
 
 void Fiber::resume() {
@@ -62,15 +62,15 @@ void Fiber::resume() {
     state_->outside = &outside;
     t_resumed = this;
     exchange_with_thread(state_->exceptions);
-    change(outside, state_->inside);
+    switch_context(outside, state_->inside);
     if (t_resumed->unhandled_) {
         std::rethrow_exception(std::exchange(t_resumed->unhandled_, nullptr));
     }
 }
 
-void Fiber::stop() {
+void Fiber::yield() {
     exchange_with_thread(state_->exceptions);
-    change(state_->inside, *state_->outside);
+    switch_context(state_->inside, *state_->outside);
 }
 
 void Fiber::switch_to(Fiber& next) {
@@ -78,7 +78,7 @@ void Fiber::switch_to(Fiber& next) {
     t_resumed = &next;
     exchange_with_thread(state_->exceptions);
     exchange_with_thread(next.state_->exceptions);
-    change(state_->inside, next.state_->inside);
+    switch_context(state_->inside, next.state_->inside);
 }
 
 }  // namespace raysteps::remote

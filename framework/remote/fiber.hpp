@@ -1,5 +1,5 @@
 #pragma once
-// A function with a stack of its own, which can stop in the middle and go on later: so that many pixels can wait for
+// A function with a stack of its own, which can yield in the middle and go on later: so that many pixels can wait for
 // the box at the same time, on one thread.
 #include <exception>
 #include <functional>
@@ -17,11 +17,11 @@ public:
     Fiber(const Fiber&) = delete;
     Fiber& operator=(const Fiber&) = delete;
 
-    /// Runs until the body, or one that it stopped for, ends or stops. Throws what that has left unhandled.
+    /// Runs until the body, or one that it yielded to, ends or yields. Throws what that has left unhandled.
     void resume();
     /// Called in the body: goes back to whoever resumed it.
-    void stop();
-    /// Called in the body: `next`, which is stopped, goes on in its place, as if it had been resumed instead.
+    void yield();
+    /// Called in the body: `next`, which has yielded, goes on in its place, as if it had been resumed instead.
     void switch_to(Fiber& next);
     [[nodiscard]] bool ended() const { return ended_; }
 

@@ -11,7 +11,7 @@
 
 #include "testing/testing.hpp"
 
-// Compiled once more as fibers change on processors for which quick_place.hpp has no instructions.
+// Compiled once more as fibers change on processors for which asm_context.hpp has no instructions.
 #ifdef RAYSTEPS_PORTABLE_FIBERS
 #define WAY " (as on other processors)"
 #else
@@ -46,23 +46,23 @@ void run_in_turns(const Body& body) {
 }
 
 /// Stops `levels` deep, and adds up what it knew on each level before.
-double sum_across_stops(Fiber& self, int levels, double value) {
+double sum_across_yields(Fiber& self, int levels, double value) {
     if (levels == 0) {
-        self.stop();
+        self.yield();
         return value;
     }
     const double mine = value * 1.5 + levels;
-    self.stop();
-    const double rest = sum_across_stops(self, levels - 1, mine);
+    self.yield();
+    const double rest = sum_across_yields(self, levels - 1, mine);
     return mine + rest;
 }
 
-double sum_without_stops(int levels, double value) {
+double sum_without_yields(int levels, double value) {
     if (levels == 0) {
         return value;
     }
     const double mine = value * 1.5 + levels;
-    return mine + sum_without_stops(levels - 1, mine);
+    return mine + sum_without_yields(levels - 1, mine);
 }
 
 }  // namespace
@@ -70,10 +70,10 @@ double sum_without_stops(int levels, double value) {
 TEST_CASE("fibers that take turns keep what they know" WAY, "[remote]") {
     std::array<double, k_fibers> sums{};
     run_in_turns([&sums](int number, Fiber& self) {
-        sums[static_cast<std::size_t>(number)] = sum_across_stops(self, 1 + number % 7, number);
+        sums[static_cast<std::size_t>(number)] = sum_across_yields(self, 1 + number % 7, number);
     });
     for (int number = 0; number < k_fibers; ++number) {
-        REQUIRE(sums[static_cast<std::size_t>(number)] == sum_without_stops(1 + number % 7, number));
+        REQUIRE(sums[static_cast<std::size_t>(number)] == sum_without_yields(1 + number % 7, number));
     }
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("the stacks of fibers are aligned as the system's are" WAY, "[remote]"
     run_in_turns([&](int number, Fiber& self) {
         alignas(16) std::array<float, 4> numbers{};
         numbers[0] = static_cast<float>(number);
-        self.stop();
+        self.yield();
         odd.insert(reinterpret_cast<std::uintptr_t>(numbers.data()) % 16);
         std::array<char, 32> text{};
         std::snprintf(text.data(), text.size(), "%.1f", static_cast<double>(numbers[0]));  // libraries count on it
@@ -94,18 +94,18 @@ TEST_CASE("the stacks of fibers are aligned as the system's are" WAY, "[remote]"
     REQUIRE(words.contains("69.0"));
 }
 
-TEST_CASE("a fiber that stops in a handler has its own exception afterwards" WAY, "[remote]") {
+TEST_CASE("a fiber that yields in a handler has its own exception afterwards" WAY, "[remote]") {
     std::array<std::string, k_fibers> caught;
     run_in_turns([&caught](int number, Fiber& self) {
         try {
             try {
                 throw std::runtime_error(std::to_string(number));
             } catch (const std::runtime_error&) {
-                self.stop();
+                self.yield();
                 throw;
             }
         } catch (const std::runtime_error& error) {
-            self.stop();
+            self.yield();
             caught[static_cast<std::size_t>(number)] = error.what();
         }
     });
@@ -114,7 +114,7 @@ TEST_CASE("a fiber that stops in a handler has its own exception afterwards" WAY
     }
 }
 
-TEST_CASE("fibers that stop for each other go on where they stopped, each in its own handler" WAY, "[remote]") {
+TEST_CASE("fibers that yield to each other go on where they were, each in its own handler" WAY, "[remote]") {
     Fibers fibers;
     std::array<std::string, k_fibers> caught;
     for (std::size_t number = 0; number < k_fibers; ++number) {
@@ -128,7 +128,7 @@ TEST_CASE("fibers that stop for each other go on where they stopped, each in its
                     caught[number] += error.what();
                 }
             }
-            fibers[number]->stop();
+            fibers[number]->yield();
         }));
     }
     fibers[0]->resume();  // the others only ever go on in its place
@@ -140,7 +140,7 @@ TEST_CASE("fibers that stop for each other go on where they stopped, each in its
     }
 }
 
-TEST_CASE("who resumes a fiber gets what nobody has handled in it, or in one that it stopped for" WAY, "[remote]") {
+TEST_CASE("who resumes a fiber gets what nobody has handled in it, or in one that it yielded to" WAY, "[remote]") {
     Fiber failing([] { throw std::length_error("unhandled"); });
     Fiber first([&] { first.switch_to(failing); });
     REQUIRE_THROWS_AS(first.resume(), std::length_error);
@@ -155,7 +155,7 @@ TEST_CASE("a fiber that never ends is given back as it is" WAY, "[remote]") {
     {
         Fiber fiber([&begun, &fiber] {
             ++begun;
-            fiber.stop();
+            fiber.yield();
             ++begun;
         });
         fiber.resume();

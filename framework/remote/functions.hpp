@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "remote/lent.hpp"
+#include "remote/serializer.hpp"
 #include "remote/session.hpp"
 #include "remote/textures.hpp"
-#include "remote/travel.hpp"
 #include "remote/trees.hpp"
 
 namespace raysteps::remote {
@@ -66,7 +66,7 @@ template <typename T>
 struct Parameter<std::span<const T>> {
     using Received = std::vector<T>;
     static int send(Writer& out, std::span<const T> values) {
-        Travel<Received>::write(out, values);
+        Serializer<Received>::write(out, values);
         return 0;
     }
     static Received receive(Reader& in) { return read<Received>(in); }
@@ -89,10 +89,10 @@ template <typename T>
 struct KnownParameter {
     using Received = std::shared_ptr<const T>;
     static int send(Writer& out, const T& value) {
-        Known<T>::all().write(out, value, Session::current().wire().together());
+        ValueCache<T>::all().write(out, value, Session::current().wire().together());
         return 0;
     }
-    static Received receive(Reader& in) { return Known<T>::all().read(in); }
+    static Received receive(Reader& in) { return ValueCache<T>::all().read(in); }
     static const T& give(const Received& value) { return *value; }
 };
 template <>
@@ -139,7 +139,7 @@ inline void add_counts(Reader& in) {
 /// What this end has counted since it was last asked. A program keeps its own counts.
 inline void write_counts(Writer& out) {
     Stats& stats = thread_stats();
-    const bool tells = Session::current().end() == Session::End::box;
+    const bool tells = Session::current().side() == Session::Side::box;
     out.put(static_cast<std::uint32_t>(tells ? std::exchange(stats.surface_tests, 0) : 0));
     out.put(static_cast<std::uint32_t>(tells ? std::exchange(stats.box_tests, 0) : 0));
 }
@@ -147,7 +147,7 @@ inline void write_counts(Writer& out) {
 /// Sends what write(out) writes.
 template <typename Write>
 void send_answer(Wire& wire, const Write& write_result) {
-    wire.send(Kind::answer, [&](std::string& bytes) {
+    wire.send(MessageKind::answer, [&](std::string& bytes) {
         Writer out(bytes);
         write_counts(out);
         write_result(out);
@@ -234,7 +234,7 @@ struct ServiceOf<Function> {
 /// offer_function<&point_at>(FunctionId::point_at): the other end may call it. Always true.
 template <auto Function>
 bool offer_function(FunctionId id) {
-    return offer(id, &ServiceOf<Function>::serve);
+    return register_service(id, &ServiceOf<Function>::serve);
 }
 
 }  // namespace raysteps::remote

@@ -9,7 +9,7 @@
 #include "core/smooth_triangle.hpp"
 #include "remote/lent.hpp"
 #include "remote/searches.hpp"
-#include "remote/travel.hpp"
+#include "remote/serializer.hpp"
 
 namespace raysteps::remote {
 namespace {
@@ -198,7 +198,7 @@ std::shared_ptr<CopiedGroup> Groups::read(Reader& in) {
 }
 
 std::shared_ptr<CopiedGroup> Groups::make_copies(GroupId id, std::string_view description) {
-    if (!copied_.empty() && id <= copied_.rbegin()->first && Session::current().end() == Session::End::home) {
+    if (!copied_.empty() && id <= copied_.rbegin()->first && Session::current().side() == Session::Side::home) {
         throw BadMessage("surfaces were described in another order than that of their numbers");
     }
     auto group = std::shared_ptr<CopiedGroup>(new CopiedGroup{id, {}}, [this](CopiedGroup* last) {
@@ -228,7 +228,7 @@ OwnGroup& Groups::lent_group(GroupId id) const {
     return *found->second;
 }
 
-const Surface& Groups::lent(PlaceInGroup place) const {
+const Surface& Groups::lent(SurfaceRef place) const {
     const OwnGroup& group = lent_group(place.group);
     if (place.index >= group.surfaces.size()) {
         throw BadMessage("a surface was asked that is not there");
@@ -236,9 +236,9 @@ const Surface& Groups::lent(PlaceInGroup place) const {
     return *group.surfaces[place.index];
 }
 
-Use Groups::use(GroupId group) const { return Use(lent_group(group).uses); }
+UseGuard Groups::use(GroupId group) const { return UseGuard(lent_group(group).uses); }
 
-const PlaceInGroup* Groups::place_of(const Surface* surface) const {
+const SurfaceRef* Groups::place_of(const Surface* surface) const {
     const auto found = places_.find(surface);
     return found == places_.end() ? nullptr : &found->second;
 }

@@ -23,7 +23,7 @@ struct OwnGroup {
     std::string description;
     std::uint64_t described_in = 0;  ///< `together` when it was last described
     int lent = 0;                    ///< open questions that may lead to one of these surfaces
-    Uses uses;
+    UseCount uses;
 };
 
 /// Its copies at the other end, in the same order.
@@ -32,7 +32,7 @@ struct CopiedGroup {
     Scene scene;
 };
 
-struct PlaceInGroup {
+struct SurfaceRef {
     GroupId group = 0;
     std::uint32_t index = 0;
 };
@@ -53,13 +53,13 @@ public:
     [[nodiscard]] std::shared_ptr<CopiedGroup> read(Reader& in);
 
     /// A surface of an own group that an open question has lent. Throws BadMessage for any other.
-    [[nodiscard]] const Surface& lent(PlaceInGroup place) const;
+    [[nodiscard]] const Surface& lent(SurfaceRef place) const;
 
     /// While one of its surfaces is asked. Throws as `lent` does.
-    [[nodiscard]] Use use(GroupId group) const;
+    [[nodiscard]] UseGuard use(GroupId group) const;
 
     /// Null for a surface that is no copy.
-    [[nodiscard]] const PlaceInGroup* place_of(const Surface* surface) const;
+    [[nodiscard]] const SurfaceRef* place_of(const Surface* surface) const;
 
 private:
     [[nodiscard]] OwnGroup& lent_group(GroupId id) const;
@@ -67,7 +67,7 @@ private:
 
     std::map<GroupId, std::shared_ptr<OwnGroup>> own_;
     std::map<GroupId, std::shared_ptr<CopiedGroup>> copied_;
-    std::unordered_map<const Surface*, PlaceInGroup> places_;
+    std::unordered_map<const Surface*, SurfaceRef> places_;
     GroupId last_ = 0;
 };
 

@@ -6,7 +6,7 @@
 #include "core/inward_sphere.hpp"
 #include "core/mesh_triangle.hpp"
 #include "core/smooth_triangle.hpp"
-#include "remote/travel.hpp"
+#include "remote/serializer.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -59,7 +59,7 @@ TEST_CASE("copies look like the surfaces that they stand for", "[remote]") {
         CHECK(copy.bounds().max == some[i]->bounds().max);
         CHECK(copy.fill().color == k_fill.color);
         CHECK(copy.fill().index_of_refraction == k_fill.index_of_refraction);
-        const PlaceInGroup* place = there.place_of(&copy);
+        const SurfaceRef* place = there.place_of(&copy);
         REQUIRE(place != nullptr);
         CHECK(&here.lent(*place) == some[i]);
         CHECK(there.place_of(some[i]) == nullptr);

@@ -17,7 +17,7 @@
 namespace raysteps::remote {
 namespace {
 
-void farewell(int /*code*/, const char* why) { std::fprintf(stderr, "wire: %s\n", why); }
+void exit_handler(int /*code*/, const char* why) { std::fprintf(stderr, "wire: %s\n", why); }
 
 std::unique_ptr<Session> open_session() {
     const char* words = std::getenv("RAYSTEPS_BOX");
@@ -30,7 +30,7 @@ std::unique_ptr<Session> open_session() {
     if (in.ec != std::errc() || in.ptr == end || std::from_chars(in.ptr + 1, end, pipes.out).ec != std::errc()) {
         return nullptr;
     }
-    return std::make_unique<Session>(Session::End::home, pipes, farewell);
+    return std::make_unique<Session>(Session::Side::home, pipes, exit_handler);
 }
 
 /// The two ends take turns: on one processor each finds the other's words in its cache, and nobody has to wake another

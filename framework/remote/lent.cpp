@@ -13,7 +13,7 @@ struct Lent {
     Tracer* tracer = nullptr;
     PathTracer* path_tracer = nullptr;
     MisTracer* mis_tracer = nullptr;
-    Uses uses;
+    UseCount uses;
 };
 
 std::unordered_map<LentId, Lent>& lent_queries() {
@@ -141,43 +141,43 @@ std::optional<LentId> id_of_other_end(const SceneQuery& query) {
 
 /// What the other end may ask of what it was lent.
 std::optional<HitRecord> closest_hit_of(LentId id, const Ray& ray) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent(id).query->closest_hit(ray);
 }
 bool occluded_of(LentId id, const Ray& ray, float distance) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent(id).query->occluded(ray, distance);
 }
 Color direct_lighting_of(LentId id, const HitRecord& hit, int depth) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent_tracer(id).direct_lighting(hit, depth);
 }
 Color trace_of(LentId id, const Ray& ray, int depth) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent_tracer(id).trace(ray, depth);
 }
 Color light_sample_of(LentId id, const HitRecord& hit) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent_path_tracer(id).light_sample(hit);
 }
 std::optional<ScatterSample> scatter_of(LentId id, const HitRecord& hit) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent_path_tracer(id).scatter(hit);
 }
 std::vector<DirectSample> direct_samples_of(LentId id, const HitRecord& hit) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent_mis_tracer(id).direct_samples(hit);
 }
 float light_pdf_of(LentId id, const glm::vec3& from, const HitRecord& hit) {
-    const Use use(lent(id).uses);
+    const UseGuard use(lent(id).uses);
     return lent_mis_tracer(id).light_pdf(from, hit);
 }
 std::optional<HitRecord> hit_of(GroupId group, std::uint32_t index, const Ray& ray) {
-    const Use use = Groups::all().use(group);
+    const UseGuard use = Groups::all().use(group);
     return Groups::all().lent({group, index}).hit(ray);
 }
 bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
-    const Use use = Groups::all().use(group);
+    const UseGuard use = Groups::all().use(group);
     return Groups::all().lent({group, index}).overlaps(box);
 }
 
@@ -197,8 +197,8 @@ bool overlaps_of(GroupId group, std::uint32_t index, const Box& box) {
                                              calls_only(FunctionId::lent_occluded, k_called_by_searches) &&
                                              calls_only(FunctionId::lent_surface_hit, k_called_by_surfaces);
 
-PlaceInGroup place_of(const Surface& copy) {
-    const PlaceInGroup* place = Groups::all().place_of(&copy);
+SurfaceRef place_of(const Surface& copy) {
+    const SurfaceRef* place = Groups::all().place_of(&copy);
     if (place == nullptr) {
         throw std::logic_error("this surface is no copy of one of the other end's");
     }
@@ -206,12 +206,12 @@ PlaceInGroup place_of(const Surface& copy) {
 }
 
 /// Where the other end has what these surfaces are copies of; nothing if some are not.
-std::vector<PlaceInGroup> places_of(const SurfaceList& surfaces) {
-    std::vector<PlaceInGroup> places;
+std::vector<SurfaceRef> places_of(const SurfaceList& surfaces) {
+    std::vector<SurfaceRef> places;
     for (const Surface* surface : surfaces) {
         if (const auto* entry = dynamic_cast<const LeafEntry*>(surface)) {
             places.push_back(entry->place());
-        } else if (const PlaceInGroup* place = Groups::all().place_of(surface)) {
+        } else if (const SurfaceRef* place = Groups::all().place_of(surface)) {
             places.push_back(*place);
         } else {
             return {};
@@ -235,7 +235,7 @@ Received read_paths(Reader& in, auto& (*lent_one)(LentId)) {
     const auto id = in.get<LentId>();
     const auto background = read<Color>(in);
     if (own) {
-        return {nullptr, &lent_one(id), Use(lent(id).uses)};
+        return {nullptr, &lent_one(id), UseGuard(lent(id).uses)};
     }
     auto stand_in = std::make_unique<FarPathTracer>(id, background);
     FarPathTracer* tracer = stand_in.get();
@@ -287,7 +287,7 @@ ReceivedQuery read_query(Reader& in) {
     const bool own = in.get<bool>();
     const auto id = in.get<LentId>();
     if (own) {
-        return {nullptr, lent(id).query, Use(lent(id).uses)};
+        return {nullptr, lent(id).query, UseGuard(lent(id).uses)};
     }
     auto stand_in = std::make_unique<FarQuery>(id);
     const SceneQuery* query = stand_in.get();
@@ -300,7 +300,7 @@ ReceivedTracer read_tracer(Reader& in) {
     const auto max_ray_depth = in.get<int>();
     const auto background = read<Color>(in);
     if (own) {
-        return {nullptr, &lent_tracer(id), Use(lent(id).uses)};
+        return {nullptr, &lent_tracer(id), UseGuard(lent(id).uses)};
     }
     auto stand_in = std::make_unique<FarTracer>(id, max_ray_depth, background);
     Tracer* tracer = stand_in.get();
@@ -312,13 +312,13 @@ ReceivedPathTracer read_path_tracer(Reader& in) { return read_paths<ReceivedPath
 ReceivedMisTracer read_mis_tracer(Reader& in) { return read_paths<ReceivedMisTracer>(in, lent_mis_tracer); }
 
 Loan write_surfaces(Writer& out, const SurfaceList& surfaces) {
-    const std::vector<PlaceInGroup> places = places_of(surfaces);
+    const std::vector<SurfaceRef> places = places_of(surfaces);
     out.put(!places.empty());
     if (places.empty()) {
         return Loan(Groups::all().write(out, surfaces, Session::current().wire().together()));
     }
     out.put(static_cast<std::uint32_t>(places.size()));
-    for (const PlaceInGroup place : places) {
+    for (const SurfaceRef place : places) {
         out.put(place.group);
         out.put(place.index);
     }
@@ -331,7 +331,7 @@ ReceivedSurfaces read_surfaces(Reader& in) {
     }
     ReceivedSurfaces received;
     GroupId last = 0;
-    received.own.resize(in.count(sizeof(PlaceInGroup)));
+    received.own.resize(in.count(sizeof(SurfaceRef)));
     for (const Surface*& surface : received.own) {
         const auto group = in.get<GroupId>();
         if (std::exchange(last, group) != group) {
@@ -343,13 +343,13 @@ ReceivedSurfaces read_surfaces(Reader& in) {
 }
 
 std::optional<HitRecord> ask_hit(const Surface& copy, const Ray& ray) {
-    const PlaceInGroup place = place_of(copy);
+    const SurfaceRef place = place_of(copy);
     return ask<std::optional<HitRecord>, GroupId, std::uint32_t, Ray>(FunctionId::lent_surface_hit, place.group,
                                                                       place.index, ray);
 }
 
 bool ask_overlaps(const Surface& copy, const Box& box) {
-    const PlaceInGroup place = place_of(copy);
+    const SurfaceRef place = place_of(copy);
     return ask<bool, GroupId, std::uint32_t, Box>(FunctionId::lent_surface_overlaps, place.group, place.index, box);
 }
 

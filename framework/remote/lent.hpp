@@ -40,22 +40,22 @@ private:
 struct ReceivedQuery {
     std::unique_ptr<SceneQuery> stand_in;
     const SceneQuery* query = nullptr;
-    std::optional<Use> use;  ///< of an own one
+    std::optional<UseGuard> use;  ///< of an own one
 };
 struct ReceivedTracer {
     std::unique_ptr<Tracer> stand_in;
     Tracer* tracer = nullptr;
-    std::optional<Use> use;
+    std::optional<UseGuard> use;
 };
 struct ReceivedPathTracer {
     std::unique_ptr<PathTracer> stand_in;
     PathTracer* tracer = nullptr;
-    std::optional<Use> use;
+    std::optional<UseGuard> use;
 };
 struct ReceivedMisTracer {
     std::unique_ptr<MisTracer> stand_in;
     MisTracer* tracer = nullptr;
-    std::optional<Use> use;
+    std::optional<UseGuard> use;
 };
 [[nodiscard]] ReceivedQuery read_query(Reader& in);
 [[nodiscard]] ReceivedTracer read_tracer(Reader& in);
@@ -66,7 +66,7 @@ struct ReceivedMisTracer {
 struct ReceivedSurfaces {
     std::shared_ptr<CopiedGroup> copies;
     SurfaceList own;
-    std::vector<Use> uses;
+    std::vector<UseGuard> uses;
 };
 [[nodiscard]] Loan write_surfaces(Writer& out, const SurfaceList& surfaces);
 [[nodiscard]] ReceivedSurfaces read_surfaces(Reader& in);

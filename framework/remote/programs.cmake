@@ -34,7 +34,7 @@ endforeach()
 raysteps_precompile(framework ${remote_targets})
 raysteps_unite(raysteps-wire)
 set_source_files_properties(remote/wire.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # it calls the system's read() and write()
-# Some systems' compilers define it by themselves; see remote/system_place.hpp. Nor may a program with fibers be taken
+# Some systems' compilers define it by themselves; see remote/system_context.hpp. Nor may a program with fibers be taken
 # for one that a shadow stack, of which there is one for each thread, can watch.
 set(fiber_options -U_FORTIFY_SOURCE)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")

@@ -18,7 +18,7 @@ constexpr std::size_t k_max_surfaces = 4096;  // likewise
 struct OpenTree {
     const Bvh* bvh = nullptr;
     int loans = 0;
-    Uses uses;
+    UseCount uses;
 };
 
 std::map<TreeId, OpenTree>& lent_trees() {
@@ -49,7 +49,7 @@ void serve_boxes(Reader& in, Wire& wire) {
     if (found == lent_trees().end()) {
         throw BadMessage("a tree was asked that no open question has lent");
     }
-    const Use use(found->second.uses);
+    const UseGuard use(found->second.uses);
     const Ray ray = read<Ray>(in);
     send_answer(wire, [&](Writer& out) { write_boxes(out, *found->second.bvh, ray); });
 }
@@ -60,7 +60,7 @@ std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<s
     if (indices.size() > k_max_surfaces) {
         throw BadMessage("more surfaces were asked than a leaf's");
     }
-    const Use use = Groups::all().use(group);
+    const UseGuard use = Groups::all().use(group);
     std::vector<std::optional<HitRecord>> hits;
     for (const std::uint32_t index : indices) {
         hits.push_back(Groups::all().lent({group, index}).hit(ray));
@@ -71,7 +71,7 @@ std::vector<std::optional<HitRecord>> hits_of(GroupId group, const std::vector<s
     return hits;
 }
 
-[[maybe_unused]] const bool offered_ahead = offer(FunctionId::lent_boxes, serve_boxes) &&
+[[maybe_unused]] const bool offered_ahead = register_service(FunctionId::lent_boxes, serve_boxes) &&
                                             offer_function<&hits_of>(FunctionId::lent_surface_hits) &&
                                             calls_only(FunctionId::lent_boxes, {FunctionId::box_clip}) &&
                                             calls_only(FunctionId::lent_surface_hits, k_called_by_surfaces);
@@ -173,7 +173,7 @@ void count(const Node& node, Occurrences& times) {
 void enter_run(std::span<const Surface*> run, Scene& entries) {
     const auto leaf = std::make_shared<Leaf>();
     for (const Surface* surface : run) {
-        const PlaceInGroup place = *Groups::all().place_of(surface);
+        const SurfaceRef place = *Groups::all().place_of(surface);
         leaf->group = place.group;
         leaf->indices.push_back(place.index);
         leaf->end = std::max(leaf->end, place.index + 1);

@@ -86,7 +86,7 @@ public:
     [[nodiscard]] Box bounds() const override { return copy_.bounds(); }
     [[nodiscard]] bool overlaps(const Box& box) const override { return copy_.overlaps(box); }
     [[nodiscard]] Shape shape() const override { return copy_.shape(); }
-    [[nodiscard]] PlaceInGroup place() const { return {leaf_->group, leaf_->indices[place_]}; }
+    [[nodiscard]] SurfaceRef place() const { return {leaf_->group, leaf_->indices[place_]}; }
 
 private:
     const Surface& copy_;

@@ -36,7 +36,7 @@ OfEach<std::optional<std::vector<FunctionId>>>& calls() {
 
 }  // namespace
 
-bool offer(FunctionId id, Session::Service service) {
+bool register_service(FunctionId id, Session::Service service) {
     services().at(static_cast<std::size_t>(id)) = service;
     return true;
 }
@@ -48,8 +48,8 @@ bool calls_only(FunctionId id, std::initializer_list<FunctionId> steps) {
     return true;
 }
 
-Session::Session(End end, Wire::Pipes pipes, Wire::Farewell farewell)
-    : end_(end), wire_(end, pipes, answer, farewell, end == End::home ? answers_without_asking : nullptr) {
+Session::Session(Side side, Wire::Pipes pipes, Wire::ExitHandler exit_handler)
+    : side_(side), wire_(side, pipes, answer, exit_handler, side == Side::home ? answers_without_asking : nullptr) {
     g_session = this;
 }
 
@@ -82,12 +82,12 @@ Session& Session::current() {
 Message Session::wait_for_answer() {
     Message message = wire_.wait_for_answer();
     switch (message.kind) {
-        case Kind::threw:
+        case MessageKind::threw:
             throw RemoteException(std::string(message.bytes));
-        case Kind::threw_unknown:
+        case MessageKind::threw_unknown:
             throw RemoteSurprise();  // NOLINT(bugprone-std-exception-baseclass): so was what it stands for
-        case Kind::unwound:
-            if (end_ == End::box) {
+        case MessageKind::unwound:
+            if (side_ == Side::box) {
                 throw Unwinding();  // NOLINT(bugprone-std-exception-baseclass): nobody is to catch it
             }
             if (kept_[wire_.current()] == nullptr) {
@@ -100,7 +100,7 @@ Message Session::wait_for_answer() {
 }
 
 void Session::keep_exception() {
-    if (end_ == End::home) {
+    if (side_ == Side::home) {
         kept_[wire_.current()] = std::current_exception();
     }
 }
@@ -119,9 +119,9 @@ bool Session::answers_without_asking(std::string_view question) {
 
 void Session::answer(Wire& wire, std::string_view question) {
     Session& session = current();
-    const bool keeps = session.end_ == End::home;
+    const bool keeps = session.side_ == Side::home;
     std::string words;
-    Kind kind = Kind::unwound;
+    MessageKind kind = MessageKind::unwound;
     try {
         Reader reader(question);
         const auto id = static_cast<std::size_t>(reader.get<FunctionId>());
@@ -134,16 +134,17 @@ void Session::answer(Wire& wire, std::string_view question) {
     } catch (const BadMessage& error) {
         session.broken(error.what());
     } catch (const Unwinding&) {
-        kind = Kind::unwound;
+        kind = MessageKind::unwound;
     } catch (const std::exception& error) {
-        kind = Kind::threw;
+        kind = MessageKind::threw;
         words = std::string(error.what()).substr(0, k_longest_words);
         session.keep_exception();
     } catch (...) {
-        kind = Kind::threw_unknown;
+        kind = MessageKind::threw_unknown;
         session.keep_exception();
     }
-    wire.send(keeps ? Kind::unwound : kind, [&](std::string& out) { out += keeps ? std::string_view() : words; });
+    wire.send(keeps ? MessageKind::unwound : kind,
+              [&](std::string& out) { out += keeps ? std::string_view() : words; });
 }
 
 }  // namespace raysteps::remote

@@ -28,18 +28,18 @@ public:
     /// Reads the arguments, calls the function, and sends the result.
     using Service = void (*)(Reader& arguments, Wire& wire);
 
-    using End = Wire::End;
+    using Side = Wire::Side;
 
     /// A process has one session at most.
-    Session(End end, Wire::Pipes pipes, Wire::Farewell farewell);
+    Session(Side side, Wire::Pipes pipes, Wire::ExitHandler exit_handler);
     [[nodiscard]] static Session& current();
-    [[nodiscard]] End end() const { return end_; }
+    [[nodiscard]] Side side() const { return side_; }
     [[nodiscard]] Wire& wire() { return wire_; }
 
     /// What the other end says to the question that write(bytes) writes. Throws what the function threw.
     template <typename Write>
     [[nodiscard]] Message ask(const Write& write) {
-        wire_.send(Kind::question, write);
+        wire_.send(MessageKind::question, write);
         return wait_for_answer();
     }
 
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] static bool asks(FunctionId id);
     [[nodiscard]] static bool offers(FunctionId id);
 
-    [[noreturn]] void broken(const char* why) { wire_.end(Wire::k_broken, why); }
+    [[noreturn]] void broken(const char* why) { wire_.exit_process(Wire::k_broken, why); }
 
 private:
     [[nodiscard]] Message wait_for_answer();
@@ -56,7 +56,7 @@ private:
     static bool answers_without_asking(std::string_view question);
     void keep_exception();
 
-    End end_;
+    Side side_;
     Wire wire_;
     /// At home, by conversation: what went out of a question that the box asked, until it comes back.
     std::unordered_map<std::size_t, std::exception_ptr> kept_;
@@ -67,7 +67,7 @@ bool run_on_processor(int processor);
 
 /// Called before main begins, by whoever has the function, or a stand-in for it. Always true. Stand-ins come by steps:
 /// one function is named for all of the step's.
-bool offer(FunctionId id, Session::Service service);
+bool register_service(FunctionId id, Session::Service service);
 bool stand_in(FunctionId id);
 
 /// Of each step with a function that tests of surfaces, or searches of a scene, may call: the one that stands for it.

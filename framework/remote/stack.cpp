@@ -3,7 +3,7 @@
 #include <sys/mman.h>
 #include <cerrno>
 #include <system_error>
-#include "remote/system_place.hpp"
+#include "remote/system_context.hpp"
 #if RAYSTEPS_SANITIZED
 #include <sanitizer/asan_interface.h>
 #else

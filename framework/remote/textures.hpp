@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "core/texture.hpp"
-#include "remote/travel.hpp"
+#include "remote/serializer.hpp"
 
 namespace raysteps::remote {
 
@@ -16,10 +16,10 @@ namespace raysteps::remote {
 
 /// What this end has sent of one kind, and what came. Both ends forget the same old ones.
 template <typename T>
-class Known {
+class ValueCache {
 public:
-    [[nodiscard]] static Known& all() {
-        static Known known;
+    [[nodiscard]] static ValueCache& all() {
+        static ValueCache known;
         return known;
     }
 

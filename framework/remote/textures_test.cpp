@@ -9,8 +9,8 @@ using namespace raysteps::remote;
 namespace {
 
 struct Ends {
-    Known<Texture> here;
-    Known<Texture> there;
+    ValueCache<Texture> here;
+    ValueCache<Texture> there;
     std::size_t sent = 0;  ///< bytes of the last message
 
     Texture pass(const Texture& texture, std::uint64_t together = 0) {
@@ -67,6 +67,6 @@ TEST_CASE("a texture that nobody has sent is refused", "[remote][texture]") {
     out.put(std::uint32_t{3});
     out.put(false);
     Reader in(bytes);
-    Known<Texture> known;
+    ValueCache<Texture> known;
     CHECK_THROWS_AS(known.read(in), BadMessage);
 }

@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "remote/functions.hpp"
-#include "remote/travel.hpp"
+#include "remote/serializer.hpp"
 
 namespace raysteps::remote {
 namespace {
@@ -269,7 +269,7 @@ public:
     }
 
     void keep(const std::shared_ptr<KnownTree<Tree>>& tree) {
-        if (!kept_.empty() && tree->id <= kept_.rbegin()->first && Session::current().end() == Session::End::home) {
+        if (!kept_.empty() && tree->id <= kept_.rbegin()->first && Session::current().side() == Session::Side::home) {
             throw BadMessage("trees came in another order than that of their numbers");
         }
         if (!Session::offers(FunctionId::sphere_intersect)) {
@@ -355,7 +355,7 @@ void serve_tree(Tree (*build)(const SurfaceList&), Reader& in, Wire& wire) {
     known->group = group;
     const Groups& groups = Groups::all();
     const IndexOf index_of = [&](const Surface* entry) {
-        const PlaceInGroup* place = groups.place_of(entry);
+        const SurfaceRef* place = groups.place_of(entry);
         return place != nullptr && place->group == group->id ? place->index : k_nowhere;
     };
     send_answer(wire, [&](Writer& out) { write_parts(out, known->tree, index_of); });
@@ -395,7 +395,7 @@ std::shared_ptr<const KnownTree<Tree>> read_tree(Reader& in) {
     known->id = id;
     known->group = Groups::all().read(in);
     const SurfaceList& surfaces = known->group->scene.surfaces();
-    if (Session::current().end() == Session::End::home) {
+    if (Session::current().side() == Session::Side::home) {
         read_searched(in, surfaces, known->tree);
     } else {
         read_parts(in, surfaces, known->tree);

@@ -7,7 +7,7 @@
 
 namespace raysteps::remote {
 
-class Uses {
+class UseCount {
 public:
     /// Called before what was lent ends. An honest box has had its answers by then: it needs them for its own.
     void require_none() const {
@@ -17,23 +17,23 @@ public:
     }
 
 private:
-    friend class Use;
+    friend class UseGuard;
     int count_ = 0;
 };
 
-class Use {
+class UseGuard {
 public:
-    explicit Use(Uses& uses) : uses_(&uses) { ++uses_->count_; }
-    Use(Use&& other) noexcept : uses_(std::exchange(other.uses_, nullptr)) {}
-    Use& operator=(Use&&) = delete;
-    ~Use() {
+    explicit UseGuard(UseCount& uses) : uses_(&uses) { ++uses_->count_; }
+    UseGuard(UseGuard&& other) noexcept : uses_(std::exchange(other.uses_, nullptr)) {}
+    UseGuard& operator=(UseGuard&&) = delete;
+    ~UseGuard() {
         if (uses_ != nullptr) {
             --uses_->count_;
         }
     }
 
 private:
-    Uses* uses_;
+    UseCount* uses_;
 };
 
 }  // namespace raysteps::remote

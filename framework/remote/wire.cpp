@@ -19,7 +19,7 @@ using BatchSize = std::uint32_t;  // stands before a batch, in bytes
 
 constexpr std::size_t k_usual_batch = std::size_t{128} << 10U;
 constexpr std::size_t k_max_batch = std::size_t{128} << 20U;
-constexpr std::size_t k_message_head = sizeof(std::uint16_t) + sizeof(Kind) + sizeof(std::uint32_t);
+constexpr std::size_t k_message_head = sizeof(std::uint16_t) + sizeof(MessageKind) + sizeof(std::uint32_t);
 constexpr std::size_t k_first_visitor = 512;
 constexpr int k_deepest = 200;  // questions within questions; the stack of a fiber holds some more
 
@@ -27,16 +27,17 @@ thread_local bool t_has_fibers = false;  // whether this is the thread that all 
 
 }  // namespace
 
-void Wire::end(int code, const char* why) {
-    farewell_(code, why);
+void Wire::exit_process(int code, const char* why) {
+    exit_handler_(code, why);
     std::_Exit(code);
 }
 
-Wire::Wire(End end, Pipes pipes, Service service, Farewell farewell, AnswersWithoutAsking answers_without_asking)
-    : end_(end),
+Wire::Wire(Side side, Pipes pipes, Service service, ExitHandler exit_handler,
+           AnswersWithoutAsking answers_without_asking)
+    : side_(side),
       pipes_(pipes),
       service_(service),
-      farewell_(farewell),
+      exit_handler_(exit_handler),
       answers_without_asking_(answers_without_asking),
       outgoing_(sizeof(BatchSize), '\0'),
       incoming_(k_usual_batch) {
@@ -58,7 +59,7 @@ std::size_t Wire::current() {
 
 Wire::Conversation& Wire::conversation(std::size_t number) {
     if (number >= conversations_.size()) {
-        end(k_broken, "a conversation has a number that nobody gave it");
+        exit_process(k_broken, "a conversation has a number that nobody gave it");
     }
     std::unique_ptr<Conversation>& talk = conversations_[number];
     if (talk == nullptr) {
@@ -67,7 +68,7 @@ Wire::Conversation& Wire::conversation(std::size_t number) {
     return *talk;
 }
 
-std::size_t Wire::begin_message(Kind kind) {
+std::size_t Wire::begin_message(MessageKind kind) {
     const std::size_t start = outgoing_.size();
     Writer out(outgoing_);
     out.put(static_cast<std::uint16_t>(current()));
@@ -83,7 +84,7 @@ void Wire::end_message(std::size_t start) {
 
 Message Wire::receive() {
     if (must_not_ask_) {
-        end(k_fault, "a function that answers without asking has asked");
+        exit_process(k_fault, "a function that answers without asking has asked");
     }
     while (true) {
         {
@@ -111,7 +112,7 @@ Message Wire::receive() {
 Message Wire::wait_for_answer() {
     while (true) {
         Message message = receive();
-        if (message.kind != Kind::question) {
+        if (message.kind != MessageKind::question) {
             return message;
         }
         answer(message);
@@ -125,12 +126,12 @@ void Wire::serve() {
 }
 
 void Wire::answer(const Message& question) {
-    if (question.kind != Kind::question) {
-        end(k_broken, "an answer came that nobody asked for");
+    if (question.kind != MessageKind::question) {
+        exit_process(k_broken, "an answer came that nobody asked for");
     }
     Conversation& talk = conversation(current());
     if (++talk.depth > k_deepest) {
-        end(k_endless, "the functions call each other without end");
+        exit_process(k_endless, "the functions call each other without end");
     }
     service_(*this, question.bytes);
     --talk.depth;
@@ -190,7 +191,7 @@ void Wire::resume_next() {
     const std::size_t number = next_ready();
     if (number == 0) {
         switch_conversation(0);
-        self->stop();
+        self->yield();
         return;
     }
     Conversation& next = conversation(number);
@@ -199,7 +200,7 @@ void Wire::resume_next() {
         return;
     }
     if (next.fiber->ended()) {
-        end(k_broken, "an answer came that nobody asked for");
+        exit_process(k_broken, "an answer came that nobody asked for");
     }
     if (next.fiber.get() == self) {
         return;
@@ -217,7 +218,7 @@ void Wire::resume_next() {
 /// let it sleep again would take longer than most answers.
 bool Wire::may_answer_for(const Conversation& talk) const {
     return answers_without_asking_ != nullptr && !talk.serves && talk.received &&
-           talk.received->kind == Kind::question && answers_without_asking_(talk.received->bytes);
+           talk.received->kind == MessageKind::question && answers_without_asking_(talk.received->bytes);
 }
 
 void Wire::answer_for(Conversation& talk, std::size_t number) {
@@ -251,7 +252,7 @@ bool Wire::must_return_to_thread() const {
 void Wire::switch_conversation(std::size_t number) {
     Conversation& before = conversation(running_);
     exchange_thread_with(before);
-    if (end_ == End::home && before.serves) {  // whoever goes on next is charged with it
+    if (side_ == Side::home && before.serves) {  // whoever goes on next is charged with it
         by_visitors_ += std::exchange(before.stats, {});
     }
     running_ = number;
@@ -273,7 +274,7 @@ void Wire::exchange_thread_with(Conversation& talk) {
 void Wire::exchange() {
     if (outgoing_.size() > sizeof(BatchSize)) {
         if (outgoing_.size() - sizeof(BatchSize) > k_max_batch) {
-            end(k_too_long, "what was to be said at once is too long");
+            exit_process(k_too_long, "what was to be said at once is too long");
         }
         const auto size = static_cast<BatchSize>(outgoing_.size() - sizeof(BatchSize));
         std::memcpy(outgoing_.data(), &size, sizeof size);
@@ -283,7 +284,7 @@ void Wire::exchange() {
     try {
         deliver(read_batch());
     } catch (const BadMessage& error) {
-        end(k_broken, error.what());
+        exit_process(k_broken, error.what());
     }
 }
 
@@ -296,19 +297,19 @@ std::string_view Wire::read_batch() {
             continue;
         }
         if (got <= 0) {
-            end(k_closed, "the other end is gone");
+            exit_process(k_closed, "the other end is gone");
         }
         have += static_cast<std::size_t>(got);
         if (have >= sizeof size) {
             std::memcpy(&size, incoming_.data(), sizeof size);
             if (size > k_max_batch) {  // no end of ours sends that: mostly it is text
-                end(k_broken, "a message is too long");
+                exit_process(k_broken, "a message is too long");
             }
             incoming_.resize(std::max(incoming_.size(), sizeof size + size));
         }
     }
     if (have > sizeof size + size) {
-        end(k_broken, "a batch came out of turn");
+        exit_process(k_broken, "a batch came out of turn");
     }
     return {incoming_.data() + sizeof size, size};
 }
@@ -319,10 +320,10 @@ void Wire::deliver(std::string_view batch) {
     Reader reader(std::string_view(kept.get(), batch.size()));
     while (!reader.at_end()) {
         const std::size_t number = reader.get<std::uint16_t>();
-        const Kind kind = reader.get<Kind>();
+        const MessageKind kind = reader.get<MessageKind>();
         Conversation& talk = conversation(number);
-        const bool begins = kind == Kind::question && talk.fiber == nullptr && may_begin(number);
-        if (kind > Kind::unwound || talk.received || (end_ == End::home && !talk.waiting && !begins)) {
+        const bool begins = kind == MessageKind::question && talk.fiber == nullptr && may_begin(number);
+        if (kind > MessageKind::unwound || talk.received || (side_ == Side::home && !talk.waiting && !begins)) {
             throw BadMessage("a message came that nobody can have sent");
         }
         talk.received = Message{kind, reader.text(), kept};
@@ -330,7 +331,7 @@ void Wire::deliver(std::string_view batch) {
             continue;
         }
         if (talk.fiber == nullptr) {
-            if (kind != Kind::question) {
+            if (kind != MessageKind::question) {
                 throw BadMessage("an answer came that nobody asked for");
             }
             talk.fiber = std::make_unique<Fiber>([this] { serve(); });
@@ -342,7 +343,7 @@ void Wire::deliver(std::string_view batch) {
 }
 
 /// A box begins conversations for threads of the student's only; those of the program's own it could take for others.
-bool Wire::may_begin(std::size_t number) const { return end_ == End::box || number >= k_first_visitor; }
+bool Wire::may_begin(std::size_t number) const { return side_ == Side::box || number >= k_first_visitor; }
 
 void Wire::write_all(std::string_view bytes) {
     while (!bytes.empty()) {
@@ -351,7 +352,7 @@ void Wire::write_all(std::string_view bytes) {
             continue;
         }
         if (written <= 0) {
-            end(k_closed, "the other end is gone");
+            exit_process(k_closed, "the other end is gone");
         }
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }

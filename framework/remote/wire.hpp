@@ -36,7 +36,7 @@ namespace raysteps::remote {
 #endif
 }
 
-enum class Kind : std::uint8_t {
+enum class MessageKind : std::uint8_t {
     question,
     answer,
     threw,          ///< the words of an exception follow
@@ -46,14 +46,14 @@ enum class Kind : std::uint8_t {
 
 /// One that came. Its bytes lie in the batch that it came with.
 struct Message {
-    Kind kind = Kind::question;
+    MessageKind kind = MessageKind::question;
     std::string_view bytes;
     std::shared_ptr<const char[]> batch;
 };
 
 class Wire {
 public:
-    enum class End {
+    enum class Side {
         home,  ///< of the program: knows the references, keeps its own exceptions, believes nothing
         box,   ///< of the student's code
     };
@@ -76,17 +76,17 @@ public:
     static constexpr int k_endless = 72;
     static constexpr int k_too_long = 73;
     static constexpr int k_fault = 74;  ///< of the kit, and not of the other end
-    using Farewell = void (*)(int code, const char* why);
+    using ExitHandler = void (*)(int code, const char* why);
 
     static constexpr std::size_t k_max_conversations = 1024;
 
-    Wire(End end, Pipes pipes, Service service, Farewell farewell,
+    Wire(Side side, Pipes pipes, Service service, ExitHandler exit_handler,
          AnswersWithoutAsking answers_without_asking = nullptr);
 
     /// A message of the current conversation: write(bytes) appends what it says. It is sent with all others when
     /// somebody waits.
     template <typename Write>
-    void send(Kind kind, const Write& write) {
+    void send(MessageKind kind, const Write& write) {
         const std::unique_lock lock = guard();
         const std::size_t start = begin_message(kind);
         try {
@@ -122,7 +122,7 @@ public:
     /// meanwhile.
     [[nodiscard]] std::uint64_t together() const { return together_; }
 
-    [[noreturn]] void end(int code, const char* why);
+    [[noreturn]] void exit_process(int code, const char* why);
 
 private:
     struct Conversation {
@@ -140,10 +140,10 @@ private:
     /// A student may have threads of its own; before the first of them nobody else is here, and nothing of a student's
     /// starts one while a message is written. A program asks and answers from one thread.
     [[nodiscard]] std::unique_lock<std::recursive_mutex> guard() {
-        const bool alone = end_ == End::home || is_only_thread();
+        const bool alone = side_ == Side::home || is_only_thread();
         return alone ? std::unique_lock<std::recursive_mutex>() : std::unique_lock(mutex_);
     }
-    [[nodiscard]] std::size_t begin_message(Kind kind);
+    [[nodiscard]] std::size_t begin_message(MessageKind kind);
     void end_message(std::size_t start);
     [[nodiscard]] Message receive();
     void answer(const Message& question);
@@ -161,10 +161,10 @@ private:
     Conversation& conversation(std::size_t number);
     void write_all(std::string_view bytes);
 
-    End end_;
+    Side side_;
     Pipes pipes_;
     Service service_;
-    Farewell farewell_;
+    ExitHandler exit_handler_;
     AnswersWithoutAsking answers_without_asking_;
     bool must_not_ask_ = false;
     std::recursive_mutex mutex_;

@@ -21,19 +21,19 @@ namespace {
 
 int number_in(std::string_view bytes) { return Reader(bytes).get<int>(); }
 
-void send_number(Wire& wire, Kind kind, int number) {
+void send_number(Wire& wire, MessageKind kind, int number) {
     wire.send(kind, [number](std::string& bytes) { Writer(bytes).put(number); });
 }
 
 int ask(Wire& wire, int number) {
-    send_number(wire, Kind::question, number);
+    send_number(wire, MessageKind::question, number);
     return number_in(wire.wait_for_answer().bytes);
 }
 
 /// The sum of all numbers up to the one that was asked for, by asking back for the sum without it.
 void sum_up(Wire& wire, std::string_view question) {
     const int number = number_in(question);
-    send_number(wire, Kind::answer, number == 0 ? 0 : number + ask(wire, number - 1));
+    send_number(wire, MessageKind::answer, number == 0 ? 0 : number + ask(wire, number - 1));
 }
 
 struct Hung {
@@ -61,7 +61,7 @@ public:
         REQUIRE(pipe(there_.data()) == 0);
         REQUIRE(pipe(back_.data()) == 0);
         other_ = std::thread([in = there_[0], out = back_[1]] {
-            Wire wire(Wire::End::box, {in, out}, sum_up, hang_up);
+            Wire wire(Wire::Side::box, {in, out}, sum_up, hang_up);
             try {
                 wire.serve();
             } catch (const Hung&) {
@@ -90,7 +90,7 @@ private:
 
 TEST_CASE("a question leads to questions back and to one answer", "[remote]") {
     const Pair pair;
-    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
+    Wire wire(Wire::Side::home, pair.pipes(), sum_up, hang_up);
     CHECK(ask(wire, 0) == 0);
     CHECK(ask(wire, 10) == 55);
     CHECK(ask(wire, 50) == 1275);
@@ -98,7 +98,7 @@ TEST_CASE("a question leads to questions back and to one answer", "[remote]") {
 
 TEST_CASE("many conversations at once do not mix their answers", "[remote]") {
     const Pair pair;
-    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
+    Wire wire(Wire::Side::home, pair.pipes(), sum_up, hang_up);
     std::array<int, 200> answers{};
     int next = 0;
     wire.run_together(16, [&] {
@@ -113,7 +113,7 @@ TEST_CASE("many conversations at once do not mix their answers", "[remote]") {
 }
 
 TEST_CASE("threads of a student's have conversations of their own", "[remote]") {
-    Wire wire(Wire::End::box, {-1, -1}, sum_up, hang_up);
+    Wire wire(Wire::Side::box, {-1, -1}, sum_up, hang_up);
     std::array<std::size_t, 16> numbers{};
     std::atomic<int> waiting{16};
     std::vector<std::thread> threads;
@@ -133,7 +133,7 @@ TEST_CASE("threads of a student's have conversations of their own", "[remote]") 
 
 TEST_CASE("an exception leaves the conversations, and each has counters of its own", "[remote]") {
     const Pair pair;
-    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
+    Wire wire(Wire::Side::home, pair.pipes(), sum_up, hang_up);
     std::vector<std::uint64_t> counted;
     const auto count = [&] {
         thread_stats().surface_tests = 0;
@@ -157,7 +157,7 @@ bool is_even(std::string_view question) { return number_in(question) % 2 == 0; }
 void sum_up_odd(Wire& wire, std::string_view question) {
     ++thread_stats().box_tests;
     if (is_even(question)) {
-        send_number(wire, Kind::answer, 100);
+        send_number(wire, MessageKind::answer, 100);
     } else {
         sum_up(wire, question);
     }
@@ -167,7 +167,7 @@ void sum_up_odd(Wire& wire, std::string_view question) {
 
 TEST_CASE("an answer that needs no question is of the conversation that was asked", "[remote]") {
     const Pair pair;
-    Wire wire(Wire::End::home, pair.pipes(), sum_up_odd, hang_up, is_even);
+    Wire wire(Wire::Side::home, pair.pipes(), sum_up_odd, hang_up, is_even);
     std::array<int, 200> answers{};
     std::array<std::uint64_t, 200> counted{};
     std::size_t next = 0;
@@ -189,7 +189,7 @@ TEST_CASE("an answer that needs no question is of the conversation that was aske
 
 TEST_CASE("questions without an end, and an end that is gone, end the program", "[remote]") {
     const Pair pair;
-    Wire wire(Wire::End::home, pair.pipes(), sum_up, hang_up);
+    Wire wire(Wire::Side::home, pair.pipes(), sum_up, hang_up);
     CHECK(ending_of([&] { ask(wire, 100000); }) == Wire::k_closed);  // the other end has had enough first
 }
 
@@ -197,7 +197,7 @@ namespace {
 
 struct Sent {
     std::uint16_t conversation;
-    Kind kind;
+    MessageKind kind;
 };
 
 /// A batch as a box could write it, with a number in each message.
@@ -224,7 +224,7 @@ int ending_with(const std::vector<Sent>& messages) {
     const std::string batch = batch_of(messages);
     REQUIRE(write(in[1], batch.data(), batch.size()) == static_cast<ssize_t>(batch.size()));
     close(in[1]);
-    Wire wire(Wire::End::home, {in[0], out[1]}, sum_up, hang_up);
+    Wire wire(Wire::Side::home, {in[0], out[1]}, sum_up, hang_up);
     const int code = ending_of([&] { static_cast<void>(ask(wire, 1)); });
     for (const int file : {in[0], out[0], out[1]}) {
         close(file);
@@ -235,32 +235,32 @@ int ending_with(const std::vector<Sent>& messages) {
 }  // namespace
 
 TEST_CASE("a program takes from a box only what it can be waiting for", "[remote]") {
-    CHECK(ending_with({{0, Kind::answer}}) == 0);
+    CHECK(ending_with({{0, MessageKind::answer}}) == 0);
     CHECK(ending_with({}) == Wire::k_closed);
-    CHECK(ending_with({{0, Kind::answer}, {0, Kind::answer}}) == Wire::k_broken);
+    CHECK(ending_with({{0, MessageKind::answer}, {0, MessageKind::answer}}) == Wire::k_broken);
     for (const std::uint16_t conversation :
          std::vector<std::uint16_t>{1, 7, 128, 511, 1024, 65535}) {  // nobody has begun these
         CAPTURE(conversation);
-        CHECK(ending_with({{conversation, Kind::question}}) == Wire::k_broken);
-        CHECK(ending_with({{conversation, Kind::answer}}) == Wire::k_broken);
+        CHECK(ending_with({{conversation, MessageKind::question}}) == Wire::k_broken);
+        CHECK(ending_with({{conversation, MessageKind::answer}}) == Wire::k_broken);
     }
-    CHECK(ending_with({{600, Kind::answer}}) == Wire::k_broken);
-    CHECK(ending_with({{600, Kind::question}, {600, Kind::question}}) == Wire::k_broken);
-    CHECK(ending_with({{600, Kind::question}, {0, Kind::answer}}) == 0);  // as a thread of the student's
-    CHECK(ending_with({{0, static_cast<Kind>(9)}}) == Wire::k_broken);
+    CHECK(ending_with({{600, MessageKind::answer}}) == Wire::k_broken);
+    CHECK(ending_with({{600, MessageKind::question}, {600, MessageKind::question}}) == Wire::k_broken);
+    CHECK(ending_with({{600, MessageKind::question}, {0, MessageKind::answer}}) == 0);  // as a thread of the student's
+    CHECK(ending_with({{0, static_cast<MessageKind>(9)}}) == Wire::k_broken);
 }
 
 TEST_CASE("what is too long for a batch is not sent, and text is no batch", "[remote]") {
     constexpr std::size_t k_too_much = (std::size_t{128} << 20U) + 1;
-    Wire box(Wire::End::box, {-1, -1}, sum_up, hang_up);
-    box.send(Kind::answer, [](std::string& bytes) { bytes.append(k_too_much, 'x'); });
+    Wire box(Wire::Side::box, {-1, -1}, sum_up, hang_up);
+    box.send(MessageKind::answer, [](std::string& bytes) { bytes.append(k_too_much, 'x'); });
     CHECK(ending_of([&] { static_cast<void>(box.wait_for_answer()); }) == Wire::k_too_long);
 
     std::array<int, 2> in{};
     REQUIRE(pipe(in.data()) == 0);
     constexpr std::string_view k_text = "hello\n";
     REQUIRE(write(in[1], k_text.data(), k_text.size()) == static_cast<ssize_t>(k_text.size()));
-    Wire home(Wire::End::home, {in[0], -1}, sum_up, hang_up);
+    Wire home(Wire::Side::home, {in[0], -1}, sum_up, hang_up);
     CHECK(ending_of([&] { static_cast<void>(home.wait_for_answer()); }) == Wire::k_broken);
     for (const int file : in) {
         close(file);
@@ -271,9 +271,9 @@ TEST_CASE("what a box's own conversations count is somebody's", "[remote]") {
     static std::array<int, 2> in{};
     const auto tested = [](Wire& wire, std::string_view /*question*/) {
         ++thread_stats().surface_tests;
-        send_number(wire, Kind::answer, 0);
+        send_number(wire, MessageKind::answer, 0);
         if (wire.current() == 601) {  // the last that was asked
-            const std::string batch = batch_of({{0, Kind::answer}});
+            const std::string batch = batch_of({{0, MessageKind::answer}});
             REQUIRE(write(in[1], batch.data(), batch.size()) == static_cast<ssize_t>(batch.size()));
             close(in[1]);
         }
@@ -281,9 +281,10 @@ TEST_CASE("what a box's own conversations count is somebody's", "[remote]") {
     std::array<int, 2> out{};
     REQUIRE(pipe(in.data()) == 0);
     REQUIRE(pipe(out.data()) == 0);
-    const std::string batch = batch_of({{600, Kind::question}, {601, Kind::question}, {0, Kind::answer}});
+    const std::string batch =
+        batch_of({{600, MessageKind::question}, {601, MessageKind::question}, {0, MessageKind::answer}});
     REQUIRE(write(in[1], batch.data(), batch.size()) == static_cast<ssize_t>(batch.size()));
-    Wire wire(Wire::End::home, {in[0], out[1]}, tested, hang_up);
+    Wire wire(Wire::Side::home, {in[0], out[1]}, tested, hang_up);
     const std::uint64_t before = thread_stats().surface_tests;
     static_cast<void>(ask(wire, 1));
     static_cast<void>(ask(wire, 1));
@@ -298,11 +299,11 @@ TEST_CASE("who says that it answers without a question must not ask", "[remote]"
     std::array<int, 2> out{};
     REQUIRE(pipe(in.data()) == 0);
     REQUIRE(pipe(out.data()) == 0);
-    const std::string batch = batch_of({{1, Kind::question}});
+    const std::string batch = batch_of({{1, MessageKind::question}});
     REQUIRE(write(in[1], batch.data(), batch.size()) == static_cast<ssize_t>(batch.size()));
     const auto asks = [](Wire& wire, std::string_view /*question*/) { static_cast<void>(ask(wire, 1)); };
     const auto always = [](std::string_view /*question*/) { return true; };
-    Wire wire(Wire::End::home, {in[0], out[1]}, asks, hang_up, always);
+    Wire wire(Wire::Side::home, {in[0], out[1]}, asks, hang_up, always);
     CHECK(ending_of([&] { wire.run_together(1, [&] { static_cast<void>(ask(wire, 5)); }); }) == Wire::k_fault);
     for (const int file : {in[0], in[1], out[0], out[1]}) {
         close(file);

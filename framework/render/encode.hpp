@@ -8,7 +8,7 @@
 namespace raysteps {
 
 /// Cut off at 1, which overexposes.
-[[nodiscard]] Rgb8 cut_off(const Color& color);
+[[nodiscard]] Rgb8 clamp_to_rgb8(const Color& color);
 
 /// From step 07 on: tone mapped; in part two bent for a screen by step 10 instead.
 [[nodiscard]] inline Color shown_color(const Color& color, int step) {
@@ -20,7 +20,7 @@ namespace raysteps {
 /// which a processor waits for.
 [[nodiscard]] inline Rgb8 encode(const Color& color, int step) {
     if (step < 7) {
-        return cut_off(color);
+        return clamp_to_rgb8(color);
     }
     const Color shown = shown_color(color, step);
     return {to_byte(shown.r), to_byte(shown.g), to_byte(shown.b)};

@@ -56,7 +56,7 @@ if(NOT TARGET raysteps-wide)
 endif()
 if(TARGET raysteps-wire)
     file(GLOB remote_tests CONFIGURE_DEPENDS "remote/*_test.cpp")
-    # As fibers change on processors for which quick_place.hpp has no instructions.
+    # As fibers change on processors for which asm_context.hpp has no instructions.
     add_library(portable-fibers OBJECT remote/fiber.cpp remote/fiber_test.cpp)
     target_compile_definitions(portable-fibers PRIVATE RAYSTEPS_PORTABLE_FIBERS Fiber=PortableFiber)
     target_link_libraries(portable-fibers PRIVATE raysteps-testing raysteps-flags raysteps-strict)

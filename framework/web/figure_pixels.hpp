@@ -11,7 +11,7 @@ namespace raysteps {
 class FigurePixels {
 public:
     void add(const Color& color) {
-        const Rgb8 pixel = cut_off(color);
+        const Rgb8 pixel = clamp_to_rgb8(color);
         for (const std::uint8_t channel : {pixel.r, pixel.g, pixel.b}) {
             text_ += "0123456789abcdef"[channel / 16];
             text_ += "0123456789abcdef"[channel % 16];

@@ -49,7 +49,7 @@ struct alignas(64) Node {
 };
 
 /// The surfaces of a block, one after the other in Tree::surfaces.
-struct Surfaces {
+struct SurfaceRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
@@ -62,13 +62,13 @@ struct alignas(32) TriangleBlock {
     Lanes longest{};       ///< edge
     Lanes area_bound{};    ///< |ab| |ac|, at least twice the area
     Lanes sliver_bound{};  ///< longest * |ab| |ac| / (twice the area); below 0: an empty place
-    Surfaces surfaces;
+    SurfaceRange surfaces;
 };
 
 struct alignas(32) SphereBlock {
     std::array<Lanes, 3> center{};
     Lanes radius{};  ///< below 0: an empty place
-    Surfaces surfaces;
+    SurfaceRange surfaces;
 };
 
 /// Cones and cylinders as the lower end, the unit direction to the other one, and how the radius grows along it.
@@ -79,7 +79,7 @@ struct alignas(32) ConeBlock {
     Lanes slope{};
     Lanes length{};
     Lanes outside{};  ///< 1: the wall is there for rays from outside, too; otherwise 0
-    Surfaces surfaces;
+    SurfaceRange surfaces;
 };
 
 /// Levels of nodes that a search is ready for.

@@ -1,7 +1,7 @@
 // Rays and what they meet, one at a time: steps 01 and 02, and the meetings with boxes of step 06.
 #include "steps/01-camera-rays/camera_rays.hpp"
 #include "steps/02-intersection/intersection.hpp"
-#include "worker/counted_surfaces.hpp"
+#include "worker/counting_surfaces.hpp"
 #include "worker/functions.hpp"
 #include "worker/protocol.hpp"
 
@@ -48,7 +48,7 @@ void ask_sphere_intersect(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_closest_hit(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const Scene scene = read_surfaces(words, asked);
     write_hit(answer, closest_hit(scene.surfaces(), read_ray(words)));
 }

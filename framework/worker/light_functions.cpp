@@ -4,7 +4,7 @@
 #include "steps/05-reflection/reflection.hpp"
 #include "steps/07-tone-mapping/tone_mapping.hpp"
 #include "steps/08-refraction/refraction.hpp"
-#include "worker/counted_surfaces.hpp"
+#include "worker/counting_surfaces.hpp"
 #include "worker/functions.hpp"
 #include "worker/protocol.hpp"
 #include "worker/scripted_tracer.hpp"
@@ -43,7 +43,7 @@ void ask_shadow_ray(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_is_lit(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const Scene scene = read_surfaces(words, asked);
     const HitRecord hit = read_hit(words);
     const Light light = read_light(words);

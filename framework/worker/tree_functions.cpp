@@ -4,7 +4,7 @@
 #include "core/stats.hpp"
 #include "steps/06-octree/octree.hpp"
 #include "steps/09-bvh/bvh.hpp"
-#include "worker/counted_surfaces.hpp"
+#include "worker/counting_surfaces.hpp"
 #include "worker/functions.hpp"
 #include "worker/protocol.hpp"
 #include "worker/simple_bvh.hpp"
@@ -14,7 +14,7 @@ namespace raysteps {
 namespace {
 
 void ask_bounds_of(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const Scene scene = read_surfaces(words, asked);
     write_box(answer, bounds_of(scene.surfaces()));
 }
@@ -26,7 +26,7 @@ void ask_split(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_build_octree(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const Scene scene = read_surfaces(words, asked);
     write_tree(answer, build_octree(scene.surfaces()), scene.surfaces());
 }
@@ -42,7 +42,7 @@ void ask_split_cost(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_build_bvh(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const Scene scene = read_surfaces(words, asked);
     write_bvh(answer, build_bvh(scene.surfaces()), scene.surfaces());
 }
@@ -76,7 +76,7 @@ void write_found(TokenWriter& answer, bool hit) { answer.whole(hit ? 1 : 0); }
 // For each ray the surfaces asked, and what was found. A search that calls one that is not written, or wrong, is
 // answered by the reference's, which goes through copies of the surfaces: then what the program counts is told.
 template <class Item, class Search>
-void search_for_each(const std::vector<Item>& items, const Asked& asked, TokenWriter& answer, Search search) {
+void search_for_each(const std::vector<Item>& items, const TestCounter& asked, TokenWriter& answer, Search search) {
     for (const Item& item : items) {
         const long long before = asked.times;
         const std::uint64_t counted = thread_stats().surface_tests;
@@ -93,7 +93,7 @@ Bvh make_bvh(bool own, const SurfaceList& surfaces) { return own ? build_bvh(sur
 
 // All four: whose tree (1: of the step's own build function), surfaces, rays.
 void ask_closest_hit_in_octree(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
     const std::vector<Ray> rays = read_rays(words);
@@ -103,7 +103,7 @@ void ask_closest_hit_in_octree(TokenReader& words, TokenWriter& answer) {
 
 // A distance at the end counts for all rays.
 void ask_occluded_in_octree(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
     const std::vector<Ray> rays = read_rays(words);
@@ -113,7 +113,7 @@ void ask_occluded_in_octree(TokenReader& words, TokenWriter& answer) {
 }
 
 void ask_closest_hit_in_bvh(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
     const std::vector<Ray> rays = read_rays(words);
@@ -123,7 +123,7 @@ void ask_closest_hit_in_bvh(TokenReader& words, TokenWriter& answer) {
 
 // Each ray has its own distance.
 void ask_occluded_in_bvh(TokenReader& words, TokenWriter& answer) {
-    Asked asked;
+    TestCounter asked;
     const bool own = words.flag();
     const Scene scene = read_surfaces(words, asked);
     const std::vector<Reach> reaches = read_reaches(words);

@@ -54,7 +54,7 @@ std::vector<Wire::ThreadMemory> memory_of_steps() {
     return found;
 }
 
-void farewell(int code, const char* why) {
+void exit_handler(int code, const char* why) {
     if (code == Wire::k_closed) {  // the program has asked all that it wanted to know
         std::fflush(nullptr);
         std::_Exit(0);
@@ -68,7 +68,7 @@ void farewell(int code, const char* why) {
 
 int main() {
     using namespace raysteps::remote;
-    Session session(Session::End::box, take_pipes(), farewell);
+    Session session(Session::Side::box, take_pipes(), exit_handler);
     session.wire().keep_apart(memory_of_steps());
     session.wire().serve();
 }

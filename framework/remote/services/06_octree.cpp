@@ -18,7 +18,7 @@ bool occluded(const Search<Node>& search) { return occluded_in_octree(search.tre
                                       offer_function<&Triangle::overlaps>(FunctionId::triangle_overlaps) &&
                                       offer_function<&raysteps::bounds_of>(FunctionId::bounds_of) &&
                                       offer_function<&raysteps::split>(FunctionId::split) &&
-                                      offer(FunctionId::build_octree, build) &&
+                                      register_service(FunctionId::build_octree, build) &&
                                       offer_function<&closest_hit>(FunctionId::closest_hit_in_octree) &&
                                       offer_function<&occluded>(FunctionId::occluded_in_octree);
 

@@ -13,7 +13,7 @@ bool occluded(const Search<Bvh>& search) { return occluded_in_bvh(search.tree, s
 
 [[maybe_unused]] const bool offered = offer_function<&raysteps::surface_area>(FunctionId::surface_area) &&
                                       offer_function<&raysteps::split_cost>(FunctionId::split_cost) &&
-                                      offer(FunctionId::build_bvh, build) &&
+                                      register_service(FunctionId::build_bvh, build) &&
                                       offer_function<&closest_hit>(FunctionId::closest_hit_in_bvh) &&
                                       offer_function<&occluded>(FunctionId::occluded_in_bvh);
 

@@ -11,7 +11,7 @@ using remote::FunctionId;
 /// Worked out in the box as the handout writes it, for many a test of a triangle asks for it before it says that there
 /// is no hit.
 glm::vec3 point_at(const Ray& ray, float distance) {
-    if (remote::Session::current().end() == remote::Session::End::box) {
+    if (remote::Session::current().side() == remote::Session::Side::box) {
         return ray.origin + distance * ray.direction;
     }
     return ask<&point_at>(FunctionId::point_at, ray, distance);

@@ -1,26 +1,26 @@
 #pragma once
 // A place on a stack to go on from, for processors of x86-64: a few instructions change from one to another. Where
-// RAYSTEPS_QUICK_PLACE is 0 there is none, and the system's (system_place.hpp) serves.
+// RAYSTEPS_ASM_CONTEXT is 0 there is none, and the system's (system_context.hpp) serves.
 #include "remote/stack.hpp"
 
 #if defined(__x86_64__) && defined(__LP64__) && !defined(__AVX512F__)
-#define RAYSTEPS_QUICK_PLACE 1
+#define RAYSTEPS_ASM_CONTEXT 1
 
 namespace raysteps::remote {
 
 /// What a function must find as it left it, the compiler keeps on the stack: it is told that all else is lost. Of the
 /// registers of AVX-512 it is not told: a build for those has no such place.
-struct QuickPlace {
+struct AsmContext {
     void* stack;
     void* frame;
     void* next;  ///< instruction
 };
 
 /// Goes to `to`, and returns when somebody changes to `from`.
-inline void change(QuickPlace& from, QuickPlace& to) {
+inline void switch_context(AsmContext& from, AsmContext& to) {
     // NOLINTBEGIN(misc-const-correctness): the instructions write there
-    QuickPlace* left = &from;
-    QuickPlace* entered = &to;
+    AsmContext* left = &from;
+    AsmContext* entered = &to;
     // NOLINTEND(misc-const-correctness)
     asm volatile(
         "leaq 1f(%%rip), %%rax\n\t"
@@ -39,7 +39,7 @@ inline void change(QuickPlace& from, QuickPlace& to) {
 }
 
 /// At the beginning of `body`, which never returns.
-inline void begin_at(QuickPlace& place, const Stack& stack, void (*body)()) {
+inline void make_context_at(AsmContext& place, const Stack& stack, void (*body)()) {
     auto* top = reinterpret_cast<void**>(static_cast<char*>(stack.lowest()) + stack.size());
     top[-1] = nullptr;  // where a caller's address would be: the stack ends here
     place = {.stack = static_cast<void*>(top - 1), .frame = nullptr, .next = reinterpret_cast<void*>(body)};
@@ -48,5 +48,5 @@ inline void begin_at(QuickPlace& place, const Stack& stack, void (*body)()) {
 }  // namespace raysteps::remote
 
 #else
-#define RAYSTEPS_QUICK_PLACE 0
+#define RAYSTEPS_ASM_CONTEXT 0
 #endif

@@ -1,21 +1,21 @@
-#include "worker/counted_surfaces.hpp"
+#include "worker/counting_surfaces.hpp"
 
 namespace raysteps {
 namespace {
 
 constexpr int k_glass_sphere = 4;
 
-std::unique_ptr<Surface> read_surface(TokenReader& words, Fill fill, Asked& asked) {
+std::unique_ptr<Surface> read_surface(TokenReader& words, Fill fill, TestCounter& asked) {
     const int kind = words.whole();
     if (kind == 0 || kind == k_glass_sphere) {
         fill.transmittance = kind == k_glass_sphere ? 1.0F : 0.0F;
         const glm::vec3 center = words.vector();
-        return std::make_unique<CountedSphere>(center, words.number(), fill, asked);
+        return std::make_unique<CountingSphere>(center, words.number(), fill, asked);
     }
     if (kind == 1) {
         const glm::vec3 a = words.vector();
         const glm::vec3 b = words.vector();
-        return std::make_unique<CountedTriangle>(a, b, words.vector(), fill, asked);
+        return std::make_unique<CountingTriangle>(a, b, words.vector(), fill, asked);
     }
     if (kind == 2) {
         return std::make_unique<ScriptedSurface>(words.number(), fill, asked);
@@ -36,7 +36,7 @@ std::optional<HitRecord> ScriptedSurface::intersect(const Ray& ray) const {
     return HitRecord{ray.origin + *distance_ * ray.direction, fill(), -ray.direction, ray.direction, *distance_, true};
 }
 
-Scene read_surfaces(TokenReader& words, Asked& asked) {
+Scene read_surfaces(TokenReader& words, TestCounter& asked) {
     Scene scene;
     const int count = words.count();
     for (int i = 0; i < count; ++i) {

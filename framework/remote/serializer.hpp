@@ -1,5 +1,5 @@
 #pragma once
-// How each type travels: values as their fields.
+// How each type is written to the wire and read from it: values as their fields.
 #include <array>
 #include <optional>
 #include <span>
@@ -26,19 +26,19 @@ namespace raysteps::remote {
 
 /// write(out, value) and read(in) for a type that can be a result; what stands for a parameter is in functions.hpp.
 template <typename T>
-struct Travel;
+struct Serializer;
 
 template <typename T>
 void write(Writer& out, const T& value) {
-    Travel<T>::write(out, value);
+    Serializer<T>::write(out, value);
 }
 template <typename T>
 [[nodiscard]] T read(Reader& in) {
-    return Travel<T>::read(in);
+    return Serializer<T>::read(in);
 }
 
 template <Plain T>
-struct Travel<T> {
+struct Serializer<T> {
     static void write(Writer& out, T value) { out.put(value); }
     static T read(Reader& in) { return in.get<T>(); }
 };
@@ -55,17 +55,17 @@ struct Packed {
     }
 };
 template <>
-struct Travel<glm::vec2> : Packed<glm::vec2, 2 * sizeof(float)> {};
+struct Serializer<glm::vec2> : Packed<glm::vec2, 2 * sizeof(float)> {};
 template <>
-struct Travel<glm::vec3> : Packed<glm::vec3, 3 * sizeof(float)> {};
+struct Serializer<glm::vec3> : Packed<glm::vec3, 3 * sizeof(float)> {};
 template <>
-struct Travel<Ray> : Packed<Ray, 6 * sizeof(float)> {};
+struct Serializer<Ray> : Packed<Ray, 6 * sizeof(float)> {};
 template <>
-struct Travel<Fill> : Packed<Fill, 14 * sizeof(float)> {};
+struct Serializer<Fill> : Packed<Fill, 14 * sizeof(float)> {};
 template <>
-struct Travel<Box> : Packed<Box, 6 * sizeof(float)> {};
+struct Serializer<Box> : Packed<Box, 6 * sizeof(float)> {};
 template <>
-struct Travel<RandomStream> : Packed<RandomStream, 8 * sizeof(std::uint32_t)> {};
+struct Serializer<RandomStream> : Packed<RandomStream, 8 * sizeof(std::uint32_t)> {};
 
 /// The fields of a record, as references.
 constexpr auto fields(auto& record) {
@@ -106,7 +106,7 @@ constexpr auto fields(auto& record) {
 
 template <typename T>
     requires std::is_aggregate_v<T>
-struct Travel<T> {
+struct Serializer<T> {
     static void write(Writer& out, const T& record) {
         std::apply([&](const auto&... field) { (remote::write(out, field), ...); }, fields(record));
     }
@@ -119,7 +119,7 @@ struct Travel<T> {
 };
 
 template <typename T>
-struct Travel<std::optional<T>> {
+struct Serializer<std::optional<T>> {
     static void write(Writer& out, const std::optional<T>& value) {
         out.put(value.has_value());
         if (value) {
@@ -132,7 +132,7 @@ struct Travel<std::optional<T>> {
 };
 
 template <typename T, std::size_t N>
-struct Travel<std::array<T, N>> {
+struct Serializer<std::array<T, N>> {
     static void write(Writer& out, const std::array<T, N>& values) {
         for (const T& value : values) {
             remote::write(out, value);
@@ -148,7 +148,7 @@ struct Travel<std::array<T, N>> {
 };
 
 template <typename T>
-struct Travel<std::vector<T>> {
+struct Serializer<std::vector<T>> {
     static void write(Writer& out, std::span<const T> values) {
         out.put(static_cast<std::uint32_t>(values.size()));
         for (const T& value : values) {
@@ -166,7 +166,7 @@ struct Travel<std::vector<T>> {
 };
 
 template <>
-struct Travel<Sphere> {
+struct Serializer<Sphere> {
     static void write(Writer& out, const Sphere& sphere) {
         remote::write(out, sphere.center());
         out.put(sphere.radius());
@@ -180,7 +180,7 @@ struct Travel<Sphere> {
 };
 
 template <>
-struct Travel<Triangle> {
+struct Serializer<Triangle> {
     static void write(Writer& out, const Triangle& triangle) {
         for (const glm::vec3& corner : {triangle.a(), triangle.b(), triangle.c()}) {
             remote::write(out, corner);

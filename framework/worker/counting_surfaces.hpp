@@ -8,13 +8,13 @@
 namespace raysteps {
 
 /// How often the surfaces of one case were asked.
-struct Asked {
+struct TestCounter {
     long long times = 0;
 };
 
-class CountedSphere final : public Sphere {
+class CountingSphere final : public Sphere {
 public:
-    CountedSphere(const glm::vec3& center, float radius, const Fill& fill, Asked& asked)
+    CountingSphere(const glm::vec3& center, float radius, const Fill& fill, TestCounter& asked)
         : Sphere(center, radius, fill), asked_(asked) {}
 
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override {
@@ -23,12 +23,12 @@ public:
     }
 
 private:
-    Asked& asked_;
+    TestCounter& asked_;
 };
 
-class CountedTriangle final : public Triangle {
+class CountingTriangle final : public Triangle {
 public:
-    CountedTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const Fill& fill, Asked& asked)
+    CountingTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const Fill& fill, TestCounter& asked)
         : Triangle(a, b, c, fill), asked_(asked) {}
 
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override {
@@ -37,13 +37,13 @@ public:
     }
 
 private:
-    Asked& asked_;
+    TestCounter& asked_;
 };
 
 /// Is hit by every ray at one distance, or by none: a search can be judged without anybody's intersection.
 class ScriptedSurface final : public Surface {
 public:
-    ScriptedSurface(std::optional<float> distance, const Fill& fill, Asked& asked)
+    ScriptedSurface(std::optional<float> distance, const Fill& fill, TestCounter& asked)
         : Surface(fill), distance_(distance), asked_(asked) {}
 
     [[nodiscard]] std::optional<HitRecord> intersect(const Ray& ray) const override;
@@ -52,11 +52,11 @@ public:
 
 private:
     std::optional<float> distance_;
-    Asked& asked_;
+    TestCounter& asked_;
 };
 
 /// How many, then each: 0 and a sphere (centre, radius), 1 and a triangle (three corners), 2 and a distance,
 /// 3 for a surface that no ray hits. Surface i has red (i + 1) / 256, by which an answer is known.
-[[nodiscard]] Scene read_surfaces(TokenReader& words, Asked& asked);
+[[nodiscard]] Scene read_surfaces(TokenReader& words, TestCounter& asked);
 
 }  // namespace raysteps

@@ -29,25 +29,27 @@ inline void prepare(ucontext_t& context, const Stack& stack, void (*body)()) {
 }
 
 #if RAYSTEPS_SANITIZED
-struct SystemPlace {
+struct SystemContext {
     ucontext_t context;
 };
 
 /// As those below.
-inline void change(SystemPlace& from, SystemPlace& to) { swapcontext(&from.context, &to.context); }
+inline void switch_context(SystemContext& from, SystemContext& to) { swapcontext(&from.context, &to.context); }
 
-inline void begin_at(SystemPlace& place, const Stack& stack, void (*body)()) { prepare(place.context, stack, body); }
+inline void make_context_at(SystemContext& place, const Stack& stack, void (*body)()) {
+    prepare(place.context, stack, body);
+}
 #else
 /// The build takes _FORTIFY_SOURCE away from fiber.cpp (programs.cmake): with it, longjmp takes a jump to another stack
 /// for a mistake.
-struct SystemPlace {
+struct SystemContext {
     std::jmp_buf registers;
     ucontext_t first;
     bool begins = false;
 };
 
 /// Goes to `to`, and returns when somebody changes to `from`.
-inline void change(SystemPlace& from, SystemPlace& to) {
+inline void switch_context(SystemContext& from, SystemContext& to) {
     if (_setjmp(from.registers) != 0) {
         return;
     }
@@ -59,7 +61,7 @@ inline void change(SystemPlace& from, SystemPlace& to) {
 }
 
 /// At the beginning of `body`, which never returns.
-inline void begin_at(SystemPlace& place, const Stack& stack, void (*body)()) {
+inline void make_context_at(SystemContext& place, const Stack& stack, void (*body)()) {
     prepare(place.first, stack, body);
     place.begins = true;
 }
