@@ -7,9 +7,11 @@ import pytest
 
 from raysteps.common.errors import GraderFault
 from raysteps.common.platform import is_windows
+from raysteps.common.process import Outcome
 from raysteps.grading.build_messages import why_not_built
 from raysteps.sandbox.limits_only import LimitsOnly
-from raysteps.toolchain.compile import Compiled, StudentBuild
+from raysteps.sandbox.task import TaskResult
+from raysteps.toolchain.compile import Compiled, StudentBuild, of_no_library
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 pytestmark = pytest.mark.skipif(is_windows(), reason="stands in for the compiler by a shell script")
@@ -35,3 +37,10 @@ def test_one_that_gives_up_on_a_file_does_not_build_it(kit: BuiltKit, tmp_path: 
     compiled = _compiled(kit, tmp_path, f'case "$*" in *{kit.steps[0].file}*) exit 3 ;; esac')
     assert compiled.binary is None
     assert why_not_built(kit, kit.steps[0], compiled, _SOURCE).endswith("the compiler gave up and said nothing.")
+
+
+def test_what_a_linker_finds_nowhere_is_a_students_whatever_its_name() -> None:
+    """But for what sanitizers have in the program itself."""
+    names = ["c_helper", "__helper", "_Z6helperv", "__asan_report_load4", "__ubsan_handle_out_of_bounds_abort"]
+    said = "".join(f"ld: step.o: undefined reference to `{name}'\n" for name in names)
+    assert of_no_library(TaskResult(Outcome(0, False, "", said, 0.1), {}, 0.1, "")) == set(names[:3])

@@ -66,10 +66,13 @@ def of_somebody(name: str) -> bool:
     return _NOT_OF_A_LIBRARY.match(name) is not None
 
 
-def _of_no_library(ran: TaskResult) -> set[str]:
-    """What a linker finds nowhere, without what a compiler asks for by itself, whose names begin so."""
+_OF_A_PROGRAM = re.compile(r"__(?:[a-z]+san|sanitizer|sancov)_")
+
+
+def of_no_library(ran: TaskResult) -> set[str]:
+    """What a linker finds nowhere, without what sanitizers have in the program itself, as Clang links them."""
     said = (ran.outcome.stderr + ran.outcome.stdout)[:_MAX_READ]
-    return {name for name in found_nowhere(said) if not name.startswith("__")}
+    return {name for name in found_nowhere(said) if _OF_A_PROGRAM.match(name) is None}
 
 
 _NESTED = re.compile(r"_Z(?:T[VISWH])?(?:NK?)?")
@@ -345,7 +348,7 @@ class StudentBuild:
         data = ran.outputs.get("library")
         if not data:
             return Compiled(None, ran)
-        nowhere = sorted(_of_no_library(ran) & foreign)
+        nowhere = sorted(of_no_library(ran) & foreign)
         if nowhere:  # such as what is declared as C and was forgotten
             return Compiled(None, compiled, undefined=self._shown(raw, nowhere, limits))
         return Compiled(self._write_library(step, data), compiled)
