@@ -51,11 +51,13 @@ def _graded(kit: BuiltKit, step: Step, source: str, folder: Path) -> tuple[StepR
     return result, said
 
 
-def test_a_lambda(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
-    source = solved[_ID].replace(_FIRST, _FIRST + "    [&]() noexcept { surfaces.at(surfaces.size()); }();\n", 1)
-    result, _ = _graded(kit, step, source, tmp_path)
+def test_a_lambda_and_an_exit(kit: BuiltKit, step: Step, solved: Sources, tmp_path: Path) -> None:
+    code = "    if (surfaces.empty()) { std::exit(0); }\n    [&]() noexcept { surfaces.at(surfaces.size()); }();\n"
+    result, _ = _graded(kit, step, "#include <cstdlib>\n" + solved[_ID].replace(_FIRST, _FIRST + code, 1), tmp_path)
     cause = "in a lambda: throws std::out_of_range, and nobody catches it."
     assert any(cause in test.message for test in result.tests)
+    ended = "The program ended in the middle of the test, with exit code 1: exit() was called."
+    assert any(test.message.startswith(ended) for test in result.tests)
 
 
 @pytest.mark.parametrize("name", _CRASHES)
