@@ -153,8 +153,10 @@ def test_only_json_of_a_size_is_read(server: DeskServer, grades: Path) -> None:
     assert _ask(server, "submission/ann", _COMMENT, Content_Type="text/plain").status == 415
     assert _ask(server, "submission/ann", "{").status == 400
     assert _ask(server, "submission/ann", "[" * 100_000).status == 400
+    assert _ask(server, "submission/ann", {**_COMMENT, "text": "half a smile: \ud83d"}).status == 400
     assert _ask(server, "submission/ann", _COMMENT, Content_Length=str(2 << 20)).status == 413
     assert _ask(server, "submission/ann", _COMMENT, Content_Length="-1").status == 413
+    assert _ask(server, "submission/ann", _COMMENT, Content_Length="9" * 5000).status == 413
     for method in ("PUT", "DELETE", "PATCH", "OPTIONS", "HEAD"):
         assert _ask(server, "submission/ann", method=method).status == 405
     assert _amount(grades) == 0

@@ -21,7 +21,7 @@ from raysteps.classroom.class_document import Standings, still_true
 from raysteps.classroom.class_files import CLASS_JSON
 from raysteps.classroom.database import FILE, ClassDatabase, Source, telling_of
 from raysteps.classroom.review import line_now, review_results
-from raysteps.common.documents import Malformed, convert, plain
+from raysteps.common.documents import Malformed, convert, parse, plain
 from raysteps.common.errors import RaystepsError, UsageError
 from raysteps.common.local_server import HTML, JSON, LocalHandler, LocalServer
 from raysteps.common.text import clean, number, plain_letters, printable
@@ -369,13 +369,13 @@ class _Handler(LocalHandler):
             self.answer(415, f"Expected {JSON}.\n")
             return
         length = self.headers.get("Content-Length", "")
-        if not (length.isascii() and length.isdecimal()) or int(length) > _MAX_BODY:
+        if not (length.isascii() and length.isdecimal() and len(length) < 10) or int(length) > _MAX_BODY:
             self.close_connection = True
             self.answer(413, f"Expected at most {_MAX_BODY} bytes.\n")
             return
         try:
-            said = json.loads(self.rfile.read(int(length)))
-        except (ValueError, RecursionError):
+            said = parse(self.rfile.read(int(length)), object)
+        except Malformed:
             self.answer(400, "Expected JSON.\n")
             return
         match rest:
