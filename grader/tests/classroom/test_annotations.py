@@ -229,6 +229,16 @@ def test_who_was_slower_is_told_and_nothing_is_written(grades: Path) -> None:
     assert _step(grades)["points"] == 6
 
 
+@pytest.mark.parametrize("change", ["content = '[1]'", "content = '{'", "at = x'00'"])
+def test_what_nobody_said_is_the_databases_damage(grades: Path, change: str) -> None:
+    _say(grades, "comment", step=_STEP, text="mine")
+    with sqlite3.connect(grades / "class.sqlite") as connection:
+        connection.execute("PRAGMA ignore_check_constraints = ON")
+        assert connection.execute(f"UPDATE annotations SET {change}").rowcount == 1
+    with closing(ClassDatabase(grades)) as database, pytest.raises(sqlite3.DatabaseError, match="annotation 1: "):
+        all_annotations(database)
+
+
 def test_an_answer_reaches_the_student(grades: Path) -> None:
     asked = _say(grades, "request", step=_STEP, text="was my test right?")
     assert _class(grades)["review"]["open_requests"] == 1

@@ -3,6 +3,8 @@
 import argparse
 import json
 import random
+import shutil
+import sqlite3
 from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import replace
@@ -152,8 +154,13 @@ def test_every_form_of_a_class_gives_the_same(tmp_path: Path, project: Project, 
     expected = _ranking(project, tmp_path, folder)
     for place in ("class.json", "class.sqlite"):
         assert _ranking(project, tmp_path, folder / place) == expected
+    copy = shutil.copy(folder / "class.sqlite", tmp_path)
     (folder / "class.sqlite").unlink()
     assert _ranking(project, tmp_path, folder) == expected
+    with closing(sqlite3.connect(copy)) as connection, connection:
+        connection.execute("UPDATE results SET document = CAST(x'7bff7d' AS TEXT) WHERE document != ''")
+    with pytest.raises(UsageError, match="cannot be read as the database of a class: Could not decode"):
+        read_entries([Path(copy)])
 
 
 def test_results_in_any_order_give_the_same(tmp_path: Path, project: Project, steps: list[Step]) -> None:

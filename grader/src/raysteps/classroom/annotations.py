@@ -111,9 +111,15 @@ def checked(one: Annotation) -> Annotation:
 # Reading.
 
 
+_COLUMNS = ("uid", "subject", "kind", "author", "at")
+
+
 def _annotation(row: sqlite3.Row) -> Annotation:
-    said = {**json.loads(row["content"]), **{name: row[name] for name in ("uid", "subject", "kind", "author", "at")}}
-    return convert(said, Annotation, extra=True)  # a newer kit may say more
+    try:
+        said = dict(json.loads(row["content"])) | {name: row[name] for name in _COLUMNS}
+        return convert(said, Annotation, extra=True)  # a newer kit may say more
+    except (ValueError, TypeError) as error:
+        raise sqlite3.DatabaseError(f"annotation {row['serial']}: {error}") from error
 
 
 def threads(annotations: Iterable[Annotation]) -> list[Thread]:

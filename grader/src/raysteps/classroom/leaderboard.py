@@ -13,7 +13,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.classroom.class_document import OTHER_FORM, read_class_document
-from raysteps.classroom.database import FILE, LATEST, open_readonly
+from raysteps.classroom.database import FILE, LATEST, open_readonly, telling_of
 from raysteps.common.documents import Amount, Count, Text, checked
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, name_order, printable, size
@@ -51,7 +51,7 @@ def _without(name: str, status: str | None) -> LeaderboardEntry:
 def _of_database(path: Path) -> list[LeaderboardEntry]:
     """Results of the kit that graded then: what this one cannot read is nobody's fault."""
     entered = []
-    with open_readonly(path) as connection:
+    with open_readonly(path) as connection, telling_of(path, "read"):
         for row in connection.execute(_QUERY):
             results = stored_results(row["document"]) if row["status"] == "graded" else None
             entered.append(
