@@ -58,6 +58,18 @@ def test_points_of_a_disk_are_told_by_where_they_crowd(name: str) -> None:
     assert _problem(_FUNCTIONS["unit_disk"], _inputs("unit_disk", "many points"), mapping(*numbers)) == said
 
 
+def test_where_points_crowd_is_told_alike_whatever_the_numbers() -> None:
+    """A disk that is a little too small is found for certain, and hardly more by its mean than by its rings."""
+    inputs, draw = _inputs("unit_disk", "many points"), np.random.default_rng(5)
+    numbers = [draw.random((2, 2048)) for _ in range(10)]
+    problems = {
+        _problem(_FUNCTIONS["unit_disk"], inputs, _disk(0.95 * np.sqrt(radius), y))
+        for x, y in numbers
+        for radius in (x, 1 - x)
+    }
+    assert problems == {"too many points lie near the middle"}
+
+
 def test_the_histogram_of_a_disk_has_its_rings_from_the_middle_to_the_rim() -> None:
     x, y = np.random.default_rng(12).random((2, 2048))
     problem = _problem(_FUNCTIONS["unit_disk"], _inputs("unit_disk", "many points"), _disk(x, y))

@@ -37,7 +37,7 @@ def has_mean(numbers: Numbers, mean: float, deviation: float, most: float = DEVI
     return abs(float(numbers.mean()) - mean) <= most * deviation / math.sqrt(len(numbers))
 
 
-def is_uniform(shares: Numbers, bins: int) -> bool:
+def is_uniform(shares: Numbers, bins: int, significance: float = SIGNIFICANCE) -> bool:
     """Whether numbers from 0 to 1, or rows of several such numbers, are spread evenly over the bins of each (Pearson's
     chi-square test). What is drawn too seldom to tell is taken as even."""
     rows = shares[:, None] if shares.ndim == 1 else shares
@@ -49,7 +49,7 @@ def is_uniform(shares: Numbers, bins: int) -> bool:
     index = places @ (bins ** np.arange(rows.shape[1]))
     found = np.bincount(index, minlength=cells)
     statistic = float(((found - expected_count) ** 2).sum() / expected_count)
-    return chi_square_tail(statistic, cells - 1) >= SIGNIFICANCE
+    return chi_square_tail(statistic, cells - 1) >= significance
 
 
 def is_like(shares: Numbers, others: Numbers, bins: int) -> bool:

@@ -41,7 +41,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
-from raysteps.judge.statistics import Numbers, has_mean, is_uniform, off, uneven
+from raysteps.judge.statistics import DEVIATIONS, SIGNIFICANCE, Numbers, has_mean, is_uniform, off, uneven
 
 # Many answers to one question: rows of numbers, and what the first u gave once more.
 
@@ -140,24 +140,36 @@ def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
         return ""
     if len(shares) < _MANY:
         return "" if 2 * len(np.unique(shares, axis=0)) > len(shares) else "different u give the same point"
-    bins = 32 if len(shares) >= _VERY_MANY else 8
-    along, around = shares[:, 0], shares[:, 1]
-    deviation = math.sqrt(1 / 12)
-    problems = []
-    if not has_mean(along, 0.5, deviation):
-        problems.append(places.low if float(along.mean()) < 0.5 else places.high)
-    elif not is_uniform(along, 2 * bins):
-        problems.append(places.uneven)
-    is_along = bool(problems)
-    if not (has_mean(around, 0.5, deviation) and is_uniform(around, 2 * bins)):
-        problems.append(places.around)
-    if not is_uniform(_ranks(shares) if problems else shares, bins):
-        problems.append("the two random numbers have to do with each other")
+    is_found = bool(_uneven_problems(places, shares, DEVIATIONS, SIGNIFICANCE))
+    problems = _uneven_problems(places, shares, *_TO_TELL) if is_found else []
     words = ", and ".join(problems)
-    if is_along:
+    along, around = shares[:, 0], shares[:, 1]
+    if {places.low, places.high, places.uneven} & {*problems}:
         return uneven(words, places.way, along)
     goes_round = places is not _TRIANGLE
     return uneven(words, places.way_around, around, goes_round=goes_round) if places.around in problems else words
+
+
+_TO_TELL = 4.0, 1e-4  # where points are uneven for certain, less is enough to tell how: it hangs less on chance
+
+
+def _uneven_problems(places: _Places, shares: Numbers, deviations: float, significance: float) -> list[str]:
+    bins = 32 if len(shares) >= _VERY_MANY else 8
+    along, around = shares[:, 0], shares[:, 1]
+
+    def has_middle(numbers: Numbers) -> bool:
+        return has_mean(numbers, 0.5, math.sqrt(1 / 12), deviations)
+
+    problems = []
+    if not has_middle(along):
+        problems.append(places.low if float(along.mean()) < 0.5 else places.high)
+    elif not is_uniform(along, 2 * bins, significance):
+        problems.append(places.uneven)
+    if not (has_middle(around) and is_uniform(around, 2 * bins, significance)):
+        problems.append(places.around)
+    if not is_uniform(_ranks(shares) if problems else shares, bins, significance):
+        problems.append("the two random numbers have to do with each other")
+    return problems
 
 
 def _ranks(shares: Numbers) -> Numbers:
