@@ -94,14 +94,16 @@ def test_answers_by_chance_that_are_wrong_by_another_factor_are_not_alike() -> N
     function = functions_of("14")["scatter_metal"]
     case = Case("scatter_metal", "any angle and roughness", {})
 
-    def similarity(*mine: float) -> float:
-        said = ObservedAnswers("1 2", "the weight is wrong", times=(0.5, 1.0, 2.0))
+    def similarity(*mine: float, of: tuple[float, ...] = (0.5, 1.0, 2.0)) -> float:
+        said = ObservedAnswers("1 2", "the weight is wrong", times=of)
         return answer_similarity(function, case, "0 0", said, ObservedAnswers("3 4", "the weight is wrong", times=mine))
 
     assert similarity(0.52, 0.98, 2.1) > 0.7
     assert similarity(0.52, 0.8, 2.1) == 0
     assert similarity(0.5, 1.0, 3.0) == 0
     assert similarity() == 0
+    assert similarity(0.08, 0.03, of=(0.03, 0.1)) > 0.7, "of other points"
+    assert similarity(0.001, 0.004, of=(0.03, 0.1)) == 0, "both are far too small, and not by one factor"
 
 
 def test_how_many_times_too_large_numbers_are_does_not_hang_on_their_order() -> None:

@@ -340,15 +340,22 @@ def _spread_alike(one: Sequence[int], other: Sequence[int], *, goes_round: bool)
 
 _TIMES_OF_CHANCE = 0.01  # so far may two means or frequencies lie from each other
 _TIMES_ALIKE = 0.15  # and farther where they lie far from 1, by so much of that
+_TIMES_APART = 3  # of means: near 0 a small gap is a large factor
 
 
 def _times_alike(one: Sequence[float], other: Sequence[float]) -> bool:
-    """Whether numbers are wrong by as much: the same words are said of what lacks a factor and of what has another."""
+    """Whether numbers are wrong by as much: the same words are said of what lacks a factor and of what has another. A
+    hundredth of what it should be is not a thousandth, whichever points were drawn."""
     if len(one) != len(other):
         return False
-    far = max((abs(times - 1) for times in (*one, *other)), default=0.0)
-    slack = _TIMES_ALIKE * far + (_TIMES_OF_CHANCE if len(one) < DECILES else 0.0)
-    return all(abs(a - b) <= slack for a, b in zip(one, other, strict=True))
+    if not one:
+        return True
+    chance = _TIMES_OF_CHANCE if len(one) < DECILES else 0.0
+    less, more = sorted(abs(sum(times)) / len(times) for times in (one, other))
+    far = max(abs(times - 1) for times in (*one, *other))
+    slack = _TIMES_ALIKE * far + chance
+    is_near = all(abs(a - b) <= slack for a, b in zip(one, other, strict=True))
+    return is_near and more <= _TIMES_APART * less + chance
 
 
 def answer_similarity(
