@@ -24,6 +24,7 @@ from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, 
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_known, write_known
 from raysteps.images.compare import Pixels
 from raysteps.judge.answers import plainly_wrong
+from raysteps.judge.cases.octree_boxes import NO_PART
 from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hits import NOTHING_FOUND
 from raysteps.judge.random_source import RandomSource
@@ -377,6 +378,14 @@ def test_what_finds_nothing_may_have_any_cause_but_one_that_is_right() -> None:
         known = MutantFingerprint({"mirror": spoilt, "specular": spoilt}, {})
         evidence = replace(_evidence({"specular": spoilt}), right={"mirror"})
         assert [one.mutant.id for one in name_mistakes([match(_mutant("up"), known, evidence)])] == names
+
+
+@pytest.mark.parametrize("problem", [NOTHING_FOUND, NO_PART])
+def test_what_finds_nothing_is_not_two_mistakes(problem: str) -> None:
+    """Half of it is alike by chance, whatever loses what is there."""
+    one, other = _wrong("none", *range(10), problem=problem), _wrong("none", *range(10, 25), problem=problem)
+    known = {_mutant("first"): {"mirror": one}, _mutant("second"): {"mirror": other}}
+    assert not name_mistakes(_matched({"mirror": one | other}, known))
 
 
 def test_pictures_deny_what_a_yes_or_no_says_and_what_is_seen() -> None:

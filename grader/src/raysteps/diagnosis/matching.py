@@ -9,6 +9,7 @@ from raysteps.diagnosis.evidence import Evidence, ObservedAnswers, Picture, Ques
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint
 from raysteps.images.compare import Pixels
 from raysteps.judge.bvhs import BVH
+from raysteps.judge.cases.octree_boxes import NO_PART
 from raysteps.judge.hits import NOTHING_FOUND
 from raysteps.judge.octrees import TREE
 from raysteps.results.model import Diagnosis
@@ -149,7 +150,7 @@ def agreement(
     }
     wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
     weak = questions.function.yes_or_no or questions.function.answer in (TREE, BVH)
-    empty = sum(mine[number].problem == NOTHING_FOUND for number in both) / len(both) if both else 0.0
+    empty = sum(mine[number].problem in (NOTHING_FOUND, NO_PART) for number in both) / len(both) if both else 0.0
     return Agreement(wrong, other, alike, weak, empty, constant)
 
 
@@ -224,14 +225,16 @@ def pair_score(one: Agreement, other: Agreement) -> float:
 
 
 def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | None:
-    """The two that explain the function together; mistakes of this function only."""
+    """The two that explain the function together; mistakes of this function only. Neither does where nearly all that
+    is alike is that nothing was found: so it looks whatever loses what is there."""
     here = [match for match in matches if match.mutant.function == function and match.functions[function].mistake]
     if any(match.functions[function].constant for match in here):
         return None
+    losing = {match.mutant.id for match in here if match.functions[function].empty > _MOSTLY_EMPTY}
     scored = [
         (pair_score(one.functions[function], other.functions[function]), (one, other))
         for one, other in combinations(here, 2)
-        if one.mutant.id != other.mutant.id
+        if one.mutant.id != other.mutant.id and not {one.mutant.id, other.mutant.id} <= losing
     ]
     best = max(scored, key=lambda item: item[0], default=None)
     least = GOOD_WEAK if any(match.functions[function].weak for match in here) else GOOD

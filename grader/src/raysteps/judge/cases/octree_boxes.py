@@ -186,6 +186,7 @@ def from_face(draw: RandomSource) -> Inputs:
 
 # Cases of step 06: the part of a ray that lies in a box.
 
+NO_PART = "the ray hits the box, and nothing came"
 _NEAR = 0.03  # how clearly a ray passes a box by
 
 
@@ -213,7 +214,7 @@ def _part_problem(_inputs: Inputs, expected: _Part, actual: _Part) -> str:
     if expected.interval is None:
         return "" if actual.interval is None else "the ray misses the box, and an interval came"
     if actual.interval is None:
-        return "the ray hits the box, and nothing came"
+        return NO_PART
     enter, leave = actual.interval
     return first(
         "enter is below 0" if enter < 0 else "",
