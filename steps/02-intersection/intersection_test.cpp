@@ -292,6 +292,15 @@ TEST_CASE("closest_hit: the nearest surface in any order of the list", "[02-inte
     }
 }
 
+TEST_CASE("closest_hit: no hit is too far away to count", "[02-intersection][closest_hit]") {
+    const Sphere far({0.0F, 0.0F, -3e6F}, 1e5F, colored({0.0F, 1.0F, 0.0F}));
+    const Sphere farther({0.0F, 0.0F, -9e6F}, 1e5F, colored({1.0F, 0.0F, 0.0F}));
+    const std::optional<HitRecord> hit = closest_hit({&farther, &far}, {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -1.0F}});
+    INFO("two spheres as large as moons, at 2 900 000 and 8 900 000: the nearest hit so far may begin with no number");
+    REQUIRE(hit.has_value());
+    CHECK_THAT(hit->fill.color, IsNear({0.0F, 1.0F, 0.0F}));
+}
+
 TEST_CASE("closest_hit: nothing to hit and every test counted", "[02-intersection][closest_hit]") {
     const Sphere one({0.0F, 0.0F, -4.0F}, 1.0F, Fill{});
     const Sphere two({0.0F, 0.0F, -8.0F}, 1.0F, Fill{});
