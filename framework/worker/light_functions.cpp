@@ -113,7 +113,8 @@ void ask_transmitted_light(TokenReader& words, TokenWriter& answer) {
     Script script;
     script.max_depth = words.whole();
     script.traced = words.vector();
-    script.background = {0.25F, 0.5F, 0.75F};  // which is not what a ray through glass brings
+    script.background = {0.25F, 0.5F, 0.75F};  // neither this nor the glass's own light comes through it
+    script.own_light = {0.5F, 0.25F, 0.5F};
     TracerCalls calls;
     ScriptedTracer tracer(script, calls);
     answer.vector(transmitted_light(tracer, hit, depth));

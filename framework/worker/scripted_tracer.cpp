@@ -44,7 +44,7 @@ Color ScriptedTracer::direct_lighting(const HitRecord& hit, int depth) {
             return scripted.local;
         }
     }
-    return k_black;
+    return script_.own_light;
 }
 
 Color ScriptedTracer::trace(const Ray& ray, int depth) {

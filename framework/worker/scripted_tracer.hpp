@@ -34,6 +34,7 @@ struct Script {
     Color background{0.0F};
     std::vector<ScriptedHit> hits;  ///< in the order of the rays; a miss when they are used up
     std::optional<Color> traced;    ///< what trace brings; nothing: what the step's own function gives
+    Color own_light{0.0F};          ///< of a hit that is none of these
 };
 
 struct CastRay {

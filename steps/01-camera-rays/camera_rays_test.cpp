@@ -57,6 +57,8 @@ View random_view(Random& random) {
     view.frame.forward = turned({0.0F, 0.0F, -1.0F});
     view.camera.at = view.camera.from + random.uniform(0.5F, 20.0F) * view.frame.forward;
     view.camera.up = random.uniform(0.2F, 5.0F) * view.frame.up;
+    view.camera.hither = random.uniform(0.1F, 0.5F);
+    view.camera.focal_distance = random.uniform(2.0F, 9.0F);
     view.camera.angle = random.uniform(0.0F, 1.0F) < 0.5F ? 60.0F : 90.0F;
     view.frame.half_height = view.camera.angle < 75.0F ? 0.577350F : 1.0F;
     const auto width = static_cast<float>(view.camera.width);
@@ -71,6 +73,7 @@ TEST_CASE("point_at walks along the ray", "[01-camera-rays][point_at]") {
     const Ray ray{{1.0F, 2.0F, 3.0F}, {0.0F, 0.6F, -0.8F}};
     CHECK_THAT(point_at(ray, 0.0F), IsNear({1.0F, 2.0F, 3.0F}));
     CHECK_THAT(point_at(ray, 1.0F), IsNear({1.0F, 2.6F, 2.2F}));
+    CHECK_THAT(point_at(ray, 2.5F), IsNear({1.0F, 3.5F, 1.0F}));
     CHECK_THAT(point_at(ray, 10.0F), IsNear({1.0F, 8.0F, -5.0F}));
     CHECK_THAT(point_at(ray, -5.0F), IsNear({1.0F, -1.0F, 7.0F}));
 }
@@ -110,6 +113,8 @@ TEST_CASE("view_frame: the angle is the full vertical one in degrees", "[01-came
     CHECK(view_frame(camera).half_height == about(0.577350));
     camera.angle = 45.0F;
     CHECK(view_frame(camera).half_height == about(0.414214));
+    camera.angle = 120.0F;
+    CHECK(view_frame(camera).half_height == about(1.732051));
 }
 
 TEST_CASE("view_frame: a wide picture is wider but as high", "[01-camera-rays][view_frame]") {
@@ -120,6 +125,7 @@ TEST_CASE("view_frame: a wide picture is wider but as high", "[01-camera-rays][v
     const ViewFrame tall = view_frame(straight_camera(100, 300));
     CHECK(tall.half_height == about(1.0));
     CHECK(tall.half_width == about(1.0 / 3.0));
+    CHECK(view_frame(straight_camera(5, 3)).half_width == about(5.0 / 3.0));
 }
 
 TEST_CASE("view_frame: the handout's worked example", "[01-camera-rays][view_frame]") {
@@ -197,7 +203,10 @@ TEST_CASE("primary_ray: a pixel's point in the window for any camera", "[01-came
         const int y = static_cast<int>(random.uniform(0.0F, static_cast<float>(camera.height)));
         CAPTURE(camera.from, camera.at, camera.width, camera.height, x, y);
         const Ray ray = primary_ray(camera, frame, x, y);
-        REQUIRE_THAT(ray.origin, IsNear(camera.from));
+        {
+            INFO("every ray starts at the eye, whatever hither and focal_distance are");
+            REQUIRE_THAT(ray.origin, IsNear(camera.from));
+        }
         {
             INFO("the direction must have length 1 and has " << glm::length(ray.direction));
             REQUIRE_THAT(ray.direction, IsUnitLength());

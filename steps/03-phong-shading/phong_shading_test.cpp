@@ -85,6 +85,8 @@ TEST_CASE("diffuse: kd times colours times cosine", "[03-phong-shading][diffuse]
     CHECK_THAT(diffuse(fill, light, k_up, leaning(0.0F)), IsNear({0.4F, 0.4F, 0.32F}));
     CHECK_THAT(diffuse(fill, light, k_up, leaning(60.0F)), IsNear({0.2F, 0.2F, 0.16F}));
     CHECK_THAT(diffuse(fill, light, k_up, leaning(-60.0F)), IsNear({0.2F, 0.2F, 0.16F}));
+    INFO("a bright light gives more than 1: nothing is cut off");
+    CHECK_THAT(diffuse(fill, light_of(Color(10.0F)), k_up, leaning(0.0F)), IsNear({4.0F, 8.0F, 1.6F}));
 }
 
 TEST_CASE("diffuse: a light behind the surface adds nothing and takes nothing", "[03-phong-shading][diffuse]") {
@@ -128,6 +130,8 @@ TEST_CASE("specular: brightest where the eye sits in the mirror direction", "[03
     INFO("the surface's own colour has no part in it");
     CHECK_THAT(specular(fill, light, k_up, leaning(-30.0F), leaning(30.0F)), IsNear({0.5F, 0.4F, 0.3F}));
     CHECK_THAT(specular(fill, light, k_up, leaning(0.0F), leaning(0.0F)), IsNear({0.5F, 0.4F, 0.3F}));
+    INFO("and that of a bright light is more than 1");
+    CHECK_THAT(specular(fill, light_of(Color(6.0F)), k_up, leaning(-30.0F), leaning(30.0F)), IsNear(Color(3.0F)));
 }
 
 TEST_CASE("specular: falls off with the cosine to the power of shine", "[03-phong-shading][specular]") {
@@ -138,6 +142,8 @@ TEST_CASE("specular: falls off with the cosine to the power of shine", "[03-phon
     CHECK_THAT(specular(shiny_fill(1.0F, 1.0F), light, k_up, l, v), IsNear(Color(0.939693F)));
     CHECK_THAT(specular(shiny_fill(1.0F, 10.0F), light, k_up, l, v), IsNear(Color(0.536864F)));
     CHECK_THAT(specular(shiny_fill(0.25F, 50.0F), light, k_up, l, v), IsNear(Color(0.25F * 0.044601F)));
+    INFO("shine need not be a whole number");
+    CHECK_THAT(specular(shiny_fill(1.0F, 2.5F), light, k_up, l, v), IsNear(Color(0.855982F)));
 }
 
 TEST_CASE("specular: light and eye may change places", "[03-phong-shading][specular]") {
@@ -169,6 +175,10 @@ TEST_CASE("specular: no highlight from behind", "[03-phong-shading][specular]") 
         const glm::vec3 below = leaning(-100.0F);
         CHECK_THAT(specular(shiny_fill(1.0F, 2.0F), light, k_up, below, leaning(60.0F)), IsNear(k_black));
     }
+    SECTION("light exactly along the floor: l . n = 0, black as well") {
+        const glm::vec3 along{1.0F, 0.0F, 0.0F};
+        CHECK_THAT(specular(shiny_fill(1.0F, 2.0F), light, k_up, along, leaning(-60.0F)), IsNear(k_black));
+    }
     SECTION("the eye more than 90 degrees from r: max(r . v, 0), even where shine is even") {
         CHECK_THAT(specular(shiny_fill(1.0F, 2.0F), light, k_up, leaning(70.0F), leaning(60.0F)), IsNear(k_black));
     }
@@ -189,6 +199,9 @@ TEST_CASE("shade: the eye is where the ray came from", "[03-phong-shading][shade
     INFO("the ray came from 40 degrees to the right; only a light 40 degrees to the left shines into the eye");
     CHECK_THAT(shade(hit, std::vector<Light>{{5.0F * leaning(-40.0F), k_white}}), IsNear(k_white));
     CHECK_THAT(shade(hit, std::vector<Light>{{5.0F * leaning(40.0F), k_white}}), IsNear(k_black));
+    INFO("light from below the floor makes no highlight, though r . v = cos(20) is not 0");
+    const HitRecord flat = floor_hit(shiny_fill(1.0F, 2.0F), -leaning(80.0F));
+    CHECK_THAT(shade(flat, std::vector<Light>{{5.0F * leaning(-100.0F), k_white}}), IsNear(k_black));
 }
 
 TEST_CASE("shade: lights add up whether near or far", "[03-phong-shading][shade]") {
@@ -202,9 +215,23 @@ TEST_CASE("shade: lights add up whether near or far", "[03-phong-shading][shade]
     }
     SECTION("the sum may exceed 1") {
         CHECK_THAT(shade(hit, std::vector<Light>{red, red, red}), IsNear({3.0F, 0.0F, 0.0F}));
+        CHECK_THAT(shade(hit, std::vector<Light>(20, red)), IsNear({20.0F, 0.0F, 0.0F}));
+        const Light bright{5.0F * leaning(0.0F), {4.0F, 2.0F, 0.0F}};
+        CHECK_THAT(shade(hit, std::vector<Light>{bright}), IsNear({4.0F, 2.0F, 0.0F}));
     }
     SECTION("strength does not fall off with distance") {
+        const Light near_red{0.1F * leaning(0.0F), {1.0F, 0.0F, 0.0F}};
         CHECK_THAT(shade(hit, std::vector<Light>{far_red}), IsNear({1.0F, 0.0F, 0.0F}));
+        CHECK_THAT(shade(hit, std::vector<Light>{near_red}), IsNear({1.0F, 0.0F, 0.0F}));
+    }
+    SECTION("a light behind the surface adds nothing, and those after it count") {
+        const Light below{5.0F * leaning(120.0F), k_white};
+        CHECK_THAT(shade(hit, std::vector<Light>{below, red, below, blue}), IsNear({1.0F, 0.0F, 0.5F}));
+    }
+    SECTION("inside a ball hit.normal is on the eye's side already") {
+        HitRecord inside = hit;
+        inside.front_face = false;
+        CHECK_THAT(shade(inside, std::vector<Light>{red, blue}), IsNear({1.0F, 0.0F, 0.5F}));
     }
     SECTION("no lights: black, there is no ambient term") {
         CHECK_THAT(shade(hit, std::vector<Light>{}), IsNear(k_black));

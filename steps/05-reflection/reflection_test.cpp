@@ -2,6 +2,8 @@
 #include "steps/05-reflection/reflection.hpp"
 
 #include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
 
 #include "testing/testing.hpp"
 
@@ -63,7 +65,9 @@ TEST_CASE("reflected_ray: angle in is angle out for any hit", "[05-reflection][r
         hit.position = random.point(3.0F);
         hit.normal = random.unit_vector();
         hit.ray_direction = -random.unit_vector_above(hit.normal, 0.2F);
-        CAPTURE(hit.position, hit.normal, hit.ray_direction);
+        hit.distance = random.uniform(0.5F, 30.0F);
+        hit.front_face = i % 2 == 0;  // hit.normal is on the side that the ray came from, inside a ball, too
+        CAPTURE(hit.position, hit.normal, hit.ray_direction, hit.distance, hit.front_face);
         const Ray ray = reflected_ray(hit);
         CAPTURE(ray);
         REQUIRE_THAT(ray.direction, IsUnitLength());
@@ -116,17 +120,24 @@ TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection
     red_hit.position = {0.0F, 0.0F, 9.0F};
     red_hit.fill.color = {1.0F, 0.0F, 0.0F};
     mirror_hit.fill.color = {0.0F, 0.25F, 0.0F};
+    mirror_hit.fill.kd = 0.5F;
+    mirror_hit.front_face = false;
     tracer.answer_in_order({mirror_hit, red_hit});
     tracer.on_direct_lighting = [](const HitRecord& hit, int) { return hit.fill.color; };
     follow_bounces(tracer);
-    INFO("own light (0, 0.25, 0) + 0.5 * red (1, 0, 0)");
+    INFO("own light (0, 0.25, 0) + 0.5 * red (1, 0, 0); kd and front_face of the mirror have no part in it");
     CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear({0.5F, 0.25F, 0.0F}));
     REQUIRE(tracer.cast.size() == 2);
     INFO("the second ray leaves the mirror upwards");
     CHECK_THAT(tracer.cast[1].direction, IsNear({0.0F, 0.0F, 1.0F}));
+    CHECK(glm::distance(tracer.cast[1].origin, mirror_hit.position) <= 0.5F);  // how far exactly: reflected_ray
     REQUIRE(tracer.shaded.size() == 2);
     INFO("direct_lighting is told at which depth the hit was found: 1, then 2");
     CHECK(tracer.shaded[0].depth + tracer.shaded[1].depth == 3);
+    INFO("a mirror that no lamp lights shows the red one as well");
+    mirror_hit.fill.color = k_black;
+    tracer.answer_in_order({mirror_hit, red_hit});
+    CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear({0.5F, 0.0F, 0.0F}));
 }
 
 TEST_CASE("trace: the handout's worked example", "[05-reflection][trace]") {
@@ -140,8 +151,8 @@ TEST_CASE("trace: the handout's worked example", "[05-reflection][trace]") {
 }
 
 TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-reflection][trace]") {
-    const float ks = 0.5F;
-    for (const int max_depth : {1, 2, 3, 5}) {
+    const std::vector<std::pair<float, int>> rooms{{0.5F, 1}, {0.5F, 2}, {0.5F, 3}, {0.05F, 5}, {1.0F, 5}};
+    for (const auto& [ks, max_depth] : rooms) {
         FakeTracer tracer;
         tracer.max_depth = max_depth;
         tracer.background_color = k_sky;
@@ -152,7 +163,7 @@ TEST_CASE("trace: mirrors that face each other make a geometric series", "[05-re
             expected += weight;
             weight *= ks;
         }
-        INFO("max_ray_depth " << max_depth << ": 1 + ks + ks^2 + ..., with as many terms as rays");
+        INFO("ks " << ks << ", max_ray_depth " << max_depth << ": 1 + ks + ks^2 + ..., with as many terms as rays");
         CHECK_THAT(trace(tracer, k_eye_ray, 1), IsNear(Color(expected)));
         INFO("rays cast: one for each depth, none beyond the limit");
         CHECK(tracer.cast.size() == static_cast<std::size_t>(max_depth));
@@ -167,8 +178,9 @@ TEST_CASE("trace: the deepest ray is still followed but not the next one", "[05-
     INFO("depth 4 of 4: the hit's own light, and nothing from its mirror");
     CHECK_THAT(trace(tracer, k_eye_ray, 4), IsNear(k_white));
     const std::size_t before = tracer.cast.size();
-    INFO("depth 5 of 4: black, and nothing is tested");
+    INFO("depth 5 or 7 of 4: black, and nothing is tested");
     CHECK_THAT(trace(tracer, k_eye_ray, 5), IsNear(k_black));
+    CHECK_THAT(trace(tracer, k_eye_ray, 7), IsNear(k_black));
     CHECK(tracer.cast.size() == before);
 }
 

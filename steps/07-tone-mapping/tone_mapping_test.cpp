@@ -24,6 +24,8 @@ TEST_CASE("tone_map: c / (c + 1) at known values", "[07-tone-mapping][tone_map]"
     INFO("0 -> 0, 1 -> 1/2, 3 -> 3/4, 9 -> 9/10");
     CHECK_THAT(tone_map({0.0F, 1.0F, 3.0F}), IsNear({0.0F, 0.5F, 0.75F}));
     CHECK_THAT(tone_map({9.0F, 0.25F, 99.0F}), IsNear({0.9F, 0.2F, 0.99F}));
+    INFO("the same formula for the very dark and the very bright: 0.05 / 1.05, 0.0009 / 1.0009, 1999 / 2000");
+    CHECK_THAT(tone_map({0.05F, 0.0009F, 1999.0F}), IsNear({0.047619F, 0.000899F, 0.9995F}));
 }
 
 TEST_CASE("tone_map: each channel by itself", "[07-tone-mapping][tone_map]") {
@@ -78,8 +80,8 @@ TEST_CASE("to_byte: rounds to the nearest and does not cut off", "[07-tone-mappi
     for (int below = 0; below < 255; ++below) {
         const float half_way = static_cast<float>(below) + 0.5F;
         CAPTURE(below);
-        REQUIRE(byte((half_way - 0.02F) / 255.0F) == below);
-        REQUIRE(byte((half_way + 0.02F) / 255.0F) == below + 1);
+        REQUIRE(byte((half_way - 0.005F) / 255.0F) == below);
+        REQUIRE(byte((half_way + 0.005F) / 255.0F) == below + 1);
     }
 }
 

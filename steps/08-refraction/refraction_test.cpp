@@ -46,6 +46,10 @@ TEST_CASE("refract: straight down goes straight on in any glass", "[08-refractio
         REQUIRE(out.has_value());
         CHECK_THAT(*out, IsNear({0.0F, 0.0F, -1.0F}));
     }
+    INFO("2 degrees beside it the ray bends, if only a little: sin = 0.034899 * 1.5 = 0.052349");
+    const std::optional<glm::vec3> beside = refract(downwards(2.0F), k_up, 1.5F);
+    REQUIRE(beside.has_value());
+    CHECK_THAT(*beside, IsNear({0.052349F, 0.0F, -0.998629F}));
 }
 
 TEST_CASE("refract: into glass the ray bends towards the normal", "[08-refraction][refract]") {
@@ -141,6 +145,10 @@ TEST_CASE("transmitted_ray: total internal reflection stays inside", "[08-refrac
     CHECK_THAT(ray.direction, IsNear({0.866025F, 0.0F, 0.5F}));
     CHECK(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
     CHECK(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+    INFO("a bubble of air in glass, index 0.8, mirrors from outside: sin = 0.866025 / 0.8 is above 1");
+    const Ray outside = transmitted_ray(glass_hit(downwards(60.0F), 0.8F, true));
+    CHECK_THAT(outside.direction, IsNear({0.866025F, 0.0F, 0.5F}));
+    CHECK(outside.origin.z > 0.0F);
 }
 
 TEST_CASE("transmitted_ray: index 1 and index 0 do not bend", "[08-refraction][transmitted_ray]") {
@@ -182,6 +190,7 @@ TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refrac
     tracer.max_depth = 12;
     tracer.background_color = {0.1F, 0.2F, 0.3F};
     tracer.on_trace = [](const Ray&, int) { return Color(0.8F, 0.4F, 0.2F); };
+    tracer.on_direct_lighting = [](const HitRecord&, int) { return Color(0.5F, 0.25F, 0.5F); };
     const HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
     CHECK_THAT(transmitted_light(tracer, hit, 3), IsNear({0.4F, 0.2F, 0.1F}));
     INFO("one ray, along the transmitted direction, one deeper than the hit");
@@ -199,6 +208,7 @@ TEST_CASE("transmitted_light: transmittance times what lies beyond", "[08-refrac
 
 TEST_CASE("transmitted_light: what is not glass casts no ray", "[08-refraction][transmitted_light]") {
     FakeTracer tracer;
+    tracer.background_color = {0.1F, 0.2F, 0.3F};
     const Color beyond{0.3F, 0.6F, 0.9F};
     tracer.on_trace = [beyond](const Ray&, int) { return beyond; };
     HitRecord hit = glass_hit(downwards(45.0F), 1.5F, true);
@@ -215,11 +225,12 @@ TEST_CASE("transmitted_light: neither colour nor kd nor ks of the glass matters"
     Random random;
     INFO(random);
     for (int i = 0; i < 50; ++i) {
-        const Color beyond = 0.5F * (1.0F + random.point(1.0F));
+        const Color beyond = 1.5F * (1.0F + random.point(1.0F));  // up to 3: nothing is cut off
         FakeTracer tracer;
         tracer.on_trace = [beyond](const Ray&, int) { return beyond; };
         HitRecord hit = glass_hit(-random.unit_vector_above(k_up, 0.1F), random.uniform(1.0F, 2.0F), i % 2 == 0);
-        hit.fill.transmittance = random.uniform(0.1F, 1.0F);
+        hit.fill.transmittance = i % 5 == 0 ? 0.02F : random.uniform(0.1F, 1.0F);
+        hit.distance = random.uniform(0.5F, 20.0F);
         hit.fill.color = 0.5F * (1.0F + random.point(1.0F));
         hit.fill.kd = random.uniform(0.0F, 1.0F);
         hit.fill.ks = random.uniform(0.0F, 1.0F);

@@ -142,6 +142,14 @@ def _head_on(draw: RandomSource) -> Inputs:
     return {"direction": Vec(times(-1.0, normal)), "normal": Vec(normal), "eta": Real(eta)}
 
 
+def _almost_head_on(draw: RandomSource) -> Inputs:
+    """At 3 to 8 degrees the ray bends by half a degree and more: who sends it straight on there is wrong."""
+    normal, eta = draw.direction(), into(draw) if draw.chance(0.5) else index_of_glass(draw)
+    angle = math.radians(draw.real(3, 8))
+    direction = rounded(times(-1.0, draw.above(normal, math.cos(angle), math.cos(angle))))
+    return {"direction": Vec(direction), "normal": Vec(normal), "eta": Real(eta)}
+
+
 def _grazing(draw: RandomSource) -> Inputs:
     """Into glass, almost along its surface."""
     normal = draw.direction()
@@ -160,6 +168,7 @@ REFRACT = Function(
         Group("eta 1", lambda d: _refract(d, 1.0)),
         Group("strong glass", lambda d: _refract(d, d.real(0.25, 0.4) if d.chance(0.5) else d.real(2.5, 4))),
         Group("head-on", _head_on),
+        Group("almost head-on", _almost_head_on),
         Group("almost along the surface", _grazing),
         Group("close to the critical angle", _close_to_critical),
         Group("total internal reflection", lambda d: _refract(d, index_of_glass(d), total=True)),
