@@ -10,9 +10,12 @@ from raysteps.exports.similar_pairs import (
     MAX_TOKENS,
     SURE,
     WINDOW,
+    Handed,
     Word,
+    Words,
     gram_hashes,
     is_read_whole,
+    passages,
     winnowed,
     words_of,
 )
@@ -114,3 +117,10 @@ def test_the_same_word_all_over_makes_few_fingerprints_and_the_rest_of_a_huge_fi
 def test_too_short_a_text_has_none() -> None:
     assert winnowed(gram_hashes(_words(list(range(GRAM - 1))))) == []
     assert winnowed(gram_hashes(_words(list(range(GRAM))))) == [0]
+
+
+def test_no_passage_leaves_a_file_where_both_are_called_alike() -> None:
+    """A submission may have any name, that of the kit's own solution among them."""
+    source = "float f(float a) { return a * a + 2 - a / 3; }\n" * 3
+    one, other = (Words(Handed("ann", {"01": source, "02": source}), ()) for _ in range(2))
+    assert [each.length for each in passages(one, other, ())] == [len(one.files["01"])] * 2

@@ -353,7 +353,7 @@ class Passage:
 
 
 class Words:
-    """A submission as one row of words; no passage goes on from one file into the next."""
+    """A submission as one row of words; no passage goes on from one file into the next, whatever both are called."""
 
     def __init__(self, handed: Handed, public: Collection[str]) -> None:
         self.files: dict[str, list[Word]] = {step: words_of(text, public) for step, text in handed.sources.items()}
@@ -366,7 +366,7 @@ class Words:
             for at, value in enumerate(hashes.tolist(), start=start):
                 self.hashes.setdefault(value, []).append(at)
             self.seeds += [(start + at, int(hashes[at])) for at in winnowed(hashes)]
-            self.words += [*(word.text for word in words), f"\0{handed.name}/{step}"]
+            self.words += [*(word.text for word in words), f"\0{id(self)}/{step}"]
 
 
 def _candidates(one: Words, other: Words, given: Collection[int]) -> Iterator[Passage]:
