@@ -131,7 +131,7 @@ private:
 
 }  // namespace
 
-MeshData read_obj(const std::filesystem::path& path) { return read_obj(read_file(path), display_name(path)); }
+MeshData read_obj(const std::filesystem::path& path) { return read_obj(read_text(path), display_name(path)); }
 
 MeshData read_obj(std::string_view text, const std::string& name) { return ObjReader(text, name).read(); }
 

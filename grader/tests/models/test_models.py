@@ -153,7 +153,10 @@ def test_what_is_not_beside_the_model_is_named(obj: Path, capsys: pytest.Capture
         ("none.obj", None, r"none\.obj: is not there; expected a model"),
         ("a.ply", b"ply, or not", r"a\.ply: is no such model, or only a part of one"),
         ("a.obj", b"v 0 0 0\n", r"a\.obj: expected triangles, found none"),
-        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", r"a\.obj: a face names a corner that is not there"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", r"a\.obj:4: expected numbers of corners from 1 to 3, found"),
+        ("a.obj", b"v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n", r"a\.obj:2: expected 3 numbers after `v`, found `v 1 z"),
+        ("a.obj", b"v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", r"a\.obj:2: expected 3 numbers after `v`, found `v 1 0`"),
+        ("a.obj", b"\xff\xfev\xd8", r"a\.obj: is no text, or a damaged one; expected a model"),
         ("a.gltf", b'{"asset": {"version": "1.0"}}', r"a\.gltf: expected glTF 2\.0"),
         ("a.gltf", b'{"asset": {"version": "2.0"}, "buf', r"a\.gltf: is no such model, or only a part of one"),
         ("a.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", r"of some size, found a point"),
@@ -171,6 +174,25 @@ def test_what_is_no_model_says_why(tmp_path: Path, name: str, data: bytes | None
         path.write_bytes(data)
     with pytest.raises(UsageError, match=said):
         read_model(path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-8-sig", "latin-1"])
+def test_texts_of_other_systems_are_read_as_they_are(obj: Path, encoding: str) -> None:
+    """As Windows has them, PowerShell above all, or with the line ends of an old Macintosh; MTL files as well."""
+    for path, text in ((obj, _OBJ), (obj.parent / "two.mtl", _MTL)):
+        path.write_bytes(f"# caf\u00e9\n{text}".replace("\n", "\r").encode(encoding))
+    parts, unusable = read_model(obj)
+    assert unusable == []
+    assert sorted(part.material.texture is not None for part in parts) == [False, True]
+    assert sum(len(part.triangles) for part in parts) == 3
+    (obj.parent / "two.mtl").write_bytes(b"\xff\xfe\x00")
+    assert read_model(obj)[1] == ["two.mtl, which is no list of materials, or only a part of one"]
+
+
+def test_a_text_of_numbers_in_utf_16_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "box.off"
+    path.write_bytes(trimesh.creation.box((1, 2, 3)).export(file_type="off").encode("utf-16"))
+    assert len(read_model(path)[0][0].triangles) == 12
 
 
 @pytest.mark.parametrize("ending", ["obj", "glb", "ply", "stl", "off"])

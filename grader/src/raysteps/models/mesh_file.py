@@ -1,5 +1,6 @@
 """What a file of meshes and materials holds: OBJ with MTL, glTF, PLY, STL and OFF, read by trimesh."""
 
+import codecs
 import io
 import json
 import logging
@@ -18,8 +19,11 @@ from trimesh.visual.material import PBRMaterial, SimpleMaterial
 from trimesh.visual.texture import TextureVisuals
 
 from raysteps.common.errors import UsageError, reason
+from raysteps.common.text import count, printable
 from raysteps.images.noise import as_picture
 from raysteps.models import ENDINGS
+from raysteps.submission.encoding import decode
+from raysteps.submission.entries import RejectedFile
 
 EXPECTED = "expected a model: .obj, .gltf, .glb, .ply, .stl or .off"
 Floats = NDArray[np.float64]
@@ -29,6 +33,7 @@ _FARTHEST = 1e9  # as the readers of scenes have it
 _LONGEST_SIDE = 8192  # of a texture, likewise
 _LARGEST_FILE = 1 << 30
 _PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tga")
+_TEXTS = (".obj", ".mtl", ".off", ".gltf")  # the others may be binary
 _MAX_CORNERS = 1 << 24  # a scene counts them in single precision
 
 
@@ -138,17 +143,18 @@ def _normals(mesh: trimesh.Trimesh, turn: Floats) -> Floats | None:
 
 def _part(path: Path, name: str, mesh: trimesh.Trimesh, place: Floats) -> Part:
     """The mesh where a 4 x 4 matrix puts it."""
+    where = path if name == path.name else f"{path}: {name}"
     turn = place[:3, :3]
     positions = np.asarray(mesh.vertices, dtype=np.float64) @ turn.T + place[:3, 3]
     triangles = np.asarray(mesh.faces, dtype=np.int64)
     if not (np.abs(positions) <= _FARTHEST).all():  # NaN is not, either
         at = int(np.argmin((np.abs(positions) <= _FARTHEST).all(axis=1)))
         raise UsageError(
-            f"{path}: {name}: corner {at}: expected numbers within a thousand million of 0, found {positions[at]}"
+            f"{where}: corner {at}: expected numbers within a thousand million of 0, found {positions[at]}"
         )
     if triangles.size and not (triangles.min() >= 0 and triangles.max() < len(positions)):
         raise UsageError(
-            f"{path}: {name}: expected numbers of corners from 0 to {len(positions) - 1}, found "
+            f"{where}: expected numbers of corners from 0 to {len(positions) - 1}, found "
             f"{triangles.min()} to {triangles.max()}"
         )
     uvs = mesh.visual.uv if isinstance(mesh.visual, TextureVisuals) else None
@@ -179,6 +185,16 @@ def _check(path: Path, parts: Sequence[Part]) -> None:
             raise UsageError(f"{path}: {part.name}: expected a texture of at most {_LONGEST_SIDE} pixels a side")
 
 
+def _plain(path: Path, data: bytes) -> bytes:
+    """What is a text, in UTF-8 and with the line ends that trimesh knows."""
+    if path.suffix.lower() not in _TEXTS and data[:2] not in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+        return data
+    try:
+        return decode(data).source
+    except RejectedFile as error:
+        raise UsageError(f"{path}: is no text, or a damaged one; {EXPECTED}") from error
+
+
 class _Beside(FilePathResolver):
     """The files that a model names, from wherever it was written; what cannot be used is kept in mind, since trimesh
     goes on without it."""
@@ -186,13 +202,13 @@ class _Beside(FilePathResolver):
     def __init__(self, model: Path) -> None:
         super().__init__(os.fspath(model), allow_anywhere=True)
         self.missing: list[str] = []
-        self.broken: list[str] = []
+        self.broken: dict[str, str] = {}  # what each should be
 
     @property
     def notes(self) -> list[str]:
         return [
             *(f"{name}, which is not there" for name in self.missing),
-            *(f"{name}, which is no picture, or only a part of one" for name in self.broken),
+            *(f"{name}, which is no {kind}, or only a part of one" for name, kind in self.broken.items()),
         ]
 
     def get(self, name: str) -> bytes:
@@ -204,12 +220,14 @@ class _Beside(FilePathResolver):
         except OSError:
             self.missing.append(name)
             raise
-        if path.suffix.lower() in _PICTURES:
-            try:
-                Image.open(io.BytesIO(data)).load()
-            except Exception as error:  # Pillow's many
-                self.broken.append(name)
-                raise FileNotFoundError(name) from error
+        is_picture = path.suffix.lower() in _PICTURES
+        try:
+            if not is_picture:
+                return _plain(path, data)
+            Image.open(io.BytesIO(data)).load()
+        except Exception as error:  # Pillow's many, and what is no text
+            self.broken[name] = "picture" if is_picture else "list of materials"
+            raise FileNotFoundError(name) from error
         return data
 
 
@@ -229,7 +247,7 @@ def _load(path: Path, beside: _Beside) -> list[Part]:
     said = _Said()
     logger.addHandler(said)
     try:
-        with path.open("rb") as file, np.errstate(all="ignore"):
+        with io.BytesIO(_plain(path, path.read_bytes())) as file, np.errstate(all="ignore"):
             ending = path.suffix.lower().removeprefix(".")
             if ending == "gltf":
                 json.load(file)  # where it is none, trimesh looks for another file
@@ -247,6 +265,28 @@ def _load(path: Path, beside: _Beside) -> list[Part]:
     if packed is not None:
         raise UsageError(f"{path}: expected a model that is not packed; save it without that. Found: {packed}")
     return parts
+
+
+_NUMBERS = {"v": 3, "vn": 3, "vt": 1}  # of each line of an OBJ file, at least
+
+
+def _wrong_line(path: Path) -> str:
+    """Of an OBJ file that trimesh stumbled over: the first line that is wrong, and why; empty where none is."""
+    lines = [line.split() or [""] for line in _plain(path, path.read_bytes()).decode().splitlines()]
+    corners = sum(line[0] == "v" for line in lines)
+    for number, (kind, *words) in enumerate(lines, start=1):
+        wanted = _NUMBERS.get(kind, 0)
+        expected = f"{count(wanted, 'number')} after `{kind}`"
+        try:
+            is_right = len([float(word) for word in words[:wanted]]) == wanted
+            if kind == "f":
+                expected = f"numbers of corners from 1 to {corners}"
+                is_right = all(1 <= abs(int(word.partition("/")[0])) <= corners for word in words)
+        except ValueError:
+            is_right = False
+        if not is_right:
+            return f"{path}:{number}: expected {expected}, found `{printable(' '.join([kind, *words])[:40])}`"
+    return ""
 
 
 def _fault(error: Exception) -> str:
@@ -273,6 +313,7 @@ def read_model(path: Path, *, z_up: bool = False) -> tuple[list[Part], list[str]
     except Exception as error:  # trimesh lets pass whatever goes wrong in it with a broken file
         if beside.missing:
             raise UsageError(f"{path}: expected {beside.missing[0]} beside it, found nothing there") from error
-        raise UsageError(f"{path}: {_fault(error)}") from error
+        where = _wrong_line(path) if path.suffix.lower() == ".obj" else ""
+        raise UsageError(where or f"{path}: {_fault(error)}") from error
     _check(path, parts)
     return [_turned(part) for part in parts] if z_up else parts, beside.notes
