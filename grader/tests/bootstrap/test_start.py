@@ -1,5 +1,6 @@
 """Before the first command: the file `raysteps` in both of its languages, and what a bare machine is told."""
 
+import argparse
 import ast
 import shlex
 import shutil
@@ -12,7 +13,8 @@ import pytest
 
 from raysteps.bootstrap import start, venv
 from raysteps.bootstrap.requirements import CMAKE, COMPILER, NINJA, advice, cmake_is_new_enough
-from raysteps.bootstrap.venv import Venv, set_for
+from raysteps.bootstrap.venv import OF_PLAY, Venv, set_for
+from raysteps.cli import play
 from raysteps.course.project import Project
 
 
@@ -85,7 +87,10 @@ def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsy
         ("", ""),
         ("play", "play"),
         ("play --no-open", "play"),
+        ("play --port=8000 --registry https://npm.example.edu --out page", "play"),
         ("play --help", ""),
+        ("play --foo", ""),
+        ("play 03", ""),
         ("test --full", "dev"),
         ("test", "dev"),
         ("test 01", ""),
@@ -98,6 +103,12 @@ def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsy
 )
 def test_only_who_tests_the_kit_needs_its_makers_packages(words: str, wanted: str) -> None:
     assert set_for(words.split()) == wanted
+
+
+def test_no_option_of_play_is_taken_for_a_slip() -> None:
+    parser = argparse.ArgumentParser(add_help=False)
+    play.add_arguments(parser)
+    assert {option for action in parser._actions for option in action.option_strings} == OF_PLAY
 
 
 class _Kit:

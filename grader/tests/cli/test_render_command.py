@@ -128,6 +128,9 @@ def test_a_name_that_is_no_path_is_answered_with_one(
         ("view {scene} --screenshot new/a.ppm", "new/a.ppm: there is no folder new; make it first, or write elsewhere"),
         ("inspect {scene} 1 2 --step 1 --json there", "there: is a folder; expected the name of a file to write"),
         ("inspect {scene} 1 2 --step 1 --html there", "there: is a folder; expected the name of a file to write"),
+        ("inspect {scene} 1 2 --step 1 --html new/a.html", "new/a.html: there is no folder new; make it first"),
+        ("convert {scene} -o new/a.pbrt", "new/a.pbrt: there is no folder new; make it first"),
+        ("similar there --out new/a.html", "new/a.html: there is no folder new; make it first"),
     ],
 )
 def test_a_place_that_nothing_can_be_written_to_is_told_before_anything_is_built(

@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import content_hash
+from raysteps.common.files import content_hash, refuse_to_write
 from raysteps.common.text import count
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, is_of_part_two
@@ -60,6 +60,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     textures: TexturePlace | None = arguments.textures
     if not is_of_part_two(out) and textures is not None:
         raise UsageError(f"--textures {textures}: expected SCENE.pbrt; {out.name} has mean colours for textures")
+    refuse_to_write(out)
     for note in _write(arguments.model, out, z_up=arguments.up == "z", textures=textures or "beside"):
         console.print(escape(note), highlight=False)
     console.print(f"Scene: {escape(os.fspath(out))}", soft_wrap=True, highlight=False)

@@ -13,12 +13,12 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.cli import STUDENTS_KIT, add_impl
-from raysteps.cli.render import build_program, refuse_folder, scene_there, whose
+from raysteps.cli.render import build_program, scene_there, whose
 from raysteps.cli.todo_steps import as_far_as_written, built_trees, refuse_missing_tree, unfinished, usual_step
 from raysteps.common import process
 from raysteps.common.documents import Malformed, parse, plain
 from raysteps.common.errors import UsageError
-from raysteps.common.files import encoded, write_out
+from raysteps.common.files import encoded, refuse_to_write, write_out
 from raysteps.common.text import in_seconds, join_and, printable
 from raysteps.course.manifest import Step, chosen_step, read_all_steps, read_steps
 from raysteps.course.project import Project
@@ -209,7 +209,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     options = replace(options, scene=scene_there(project, arguments.scene))
     for path in (arguments.json, arguments.html):
         if path is not None:
-            refuse_folder(path)
+            refuse_to_write(path)
     if arguments.impl == "mine":
         _say_unfinished(project, options)
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from raysteps.cli.convert import as_scene
 from raysteps.cli.todo_steps import advice, as_far_as_written, last_value, refuse_missing_tree, wanted_step
 from raysteps.common.errors import GraderFault, StudentBuildError, UsageError
+from raysteps.common.files import refuse_to_write
 from raysteps.common.platform import own_command
 from raysteps.common.process import Outcome
 from raysteps.common.text import nearest, printable
@@ -248,20 +249,11 @@ def scene_there(project: Project, scene: str) -> str:
     raise UsageError(f"{scene}: is {'a folder' if path.is_dir() else 'not there'}; expected {meant}")
 
 
-def refuse_folder(path: Path) -> None:
-    """Before anything is built or drawn for it."""
-    if path.is_dir():
-        raise UsageError(f"{path}: is a folder; expected the name of a file to write")
-
-
 def refuse_place(args: Sequence[str], option: str) -> None:
-    """Of a file that a program writes: it makes no folders."""
+    """Of a file that a program writes."""
     word = last_value(args, option)
     if word:
-        path = Path(word)
-        refuse_folder(path)
-        if not path.parent.is_dir():
-            raise UsageError(f"{path}: there is no folder {path.parent}; make it first, or write elsewhere")
+        refuse_to_write(Path(word))
 
 
 def _is_where_we_print(path: Path) -> bool:

@@ -15,7 +15,7 @@ from rich.table import Table
 
 from raysteps.common.documents import checked, plain
 from raysteps.common.errors import UsageError
-from raysteps.common.files import encoded, write_out
+from raysteps.common.files import encoded, refuse_to_write, write_out
 from raysteps.common.text import clean, count, printable
 from raysteps.course.manifest import STEPS_HELP, Step, chosen_steps, read_steps
 from raysteps.course.project import Project
@@ -279,6 +279,8 @@ def _print(console: Console, handed: Sequence[Handed], shown: Sequence[ShownPair
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """0 when the page was made, whatever is in it."""
+    for path in filter(None, (arguments.out, arguments.json)):
+        refuse_to_write(path)
     stubs = {step: pristine_stub(project, step) for step in chosen_steps(project, arguments.steps)}
     handed = _handed(project, stubs, arguments)
     kit = kits_ways(project, stubs, "before" if arguments.solutions else "background")

@@ -161,6 +161,14 @@ def write_json(path: Path, value: object) -> None:
     write_bytes(path, readable_json(value).encode())
 
 
+def refuse_to_write(path: Path) -> None:
+    """Before anything is built or drawn for a file: a folder with a typing error in its name is not made."""
+    if path.is_dir():
+        raise UsageError(f"{path}: is a folder; expected the name of a file to write")
+    if not path.parent.is_dir():
+        raise UsageError(f"{path}: there is no folder {path.parent}; make it first, or write elsewhere")
+
+
 def write_out(path: Path, data: bytes) -> None:
     """Writes a file that somebody named, or says why not."""
     try:
