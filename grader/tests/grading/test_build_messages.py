@@ -258,6 +258,9 @@ def test_a_missing_function_is_named() -> None:
         ("Color specula(const Fill& fill) {\n}", "The file has specula: is that meant to be specular?"),
         ("Color specular(int fill) {\n}", "The file has specular, but with other arguments than the header's"),
         ("Color other(int fill);", ""),
+        ("// nothing yet\n\n", "The file is empty. Was it saved?"),
+        ('#include "steps/02-intersection/intersection.hpp"\nint f() { return 1; }', "is it that step's, saved"),
+        ('#include "steps/02-a/a.hpp"\n#include "steps/04-shadows/shadows.hpp"\nint f() { return 1; }', ""),
     ],
 )
 def test_a_missing_function_is_told_as_the_header_has_it(shadows: Step, source: str, told: str) -> None:

@@ -8,6 +8,7 @@ from course_fakes import checked, printed, small_project, text, write_own
 from raysteps.cli import app as cli
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project, here
+from raysteps.progress.hints import print_hint
 from raysteps.progress.standing import list_steps, next_of, next_step, recall, remember, standings
 
 _CODE = "int answer() { return 42; }\n"
@@ -129,6 +130,18 @@ def test_what_to_do_next(course: Project, steps: list[Step], monkeypatch: pytest
     ]
 
 
+@pytest.mark.parametrize("command", ["list", "next", "hint"])
+def test_below_the_kits_folder_the_way_up_to_the_command_is_told(
+    course: Project, steps: list[Step], command: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(course.steps / steps[0].id)
+    commands = {"list": list_steps, "next": next_step, "hint": lambda *words: print_hint(words[0], steps[0], words[1])}
+    console = printed()
+    assert commands[command](course, console) == 0
+    assert " ../../raysteps " in text(console)
+    assert " ./raysteps" not in text(console)
+
+
 @pytest.mark.parametrize(
     ("data", "words"), [(None, "the file is not there"), (b"\x7fELF\0\0", "cannot be read as text")]
 )
@@ -140,6 +153,16 @@ def test_a_file_that_is_gone_or_no_text(course: Project, steps: list[Step], data
         console = printed()
         command(course, console)
         assert "./raysteps reset 01" in text(console)
+
+
+def test_a_file_with_a_txt_behind_its_name_is_not_to_be_reset(course: Project, steps: list[Step]) -> None:
+    """As editors of Windows save it. `check` says how it has to be called."""
+    path = course.steps / steps[0].path
+    path.rename(path.with_name(f"{path.name}.txt"))
+    console = printed()
+    next_step(course, console)
+    assert "the file is not there" in text(console)
+    assert "type   ./raysteps check 01" in text(console)
 
 
 def test_what_is_only_closed_is_not_to_be_reset(course: Project, steps: list[Step]) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.text import Text
 
+from raysteps.common.platform import own_command
 from raysteps.course.manifest import STEPS_HELP, chosen_steps
 from raysteps.course.project import Project
 from raysteps.grading.scoring import exit_code
@@ -64,5 +65,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if code == 0 and checked.following is not None:
         console.print(f"Next: {watch_command(checked.following.id)}")
     elif code == 0:
-        console.print(ALL_DONE)
+        console.print(ALL_DONE.format(own_command()))
     return code

@@ -77,7 +77,7 @@ def _not_linked(project: Project, steps: list[Step], said: str, ran: TaskResult)
     written = f"::{name.partition('(')[0].strip()}"
     owner = next((step for step in steps if any(written.endswith(f"::{one}") for one in step.functions)), None)
     if owner is not None:
-        return _about(owner, missing_here((name,), _source(project, owner)))
+        return _about(owner, missing_here(owner, (name,), _source(project, owner)))
     sources = {step: _source(project, step) for step in steps}
     # Who defines such a name calls its own, unless nobody else calls it.
     using = sorted(

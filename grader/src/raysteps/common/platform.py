@@ -32,9 +32,12 @@ def executable(path: Path) -> Path:
     return path.with_name(f"{path.name}.exe") if is_windows() else path
 
 
-def own_command() -> str:
-    """What a person types before the name of a command."""
-    return "python raysteps" if is_windows() else "./raysteps"
+def own_command(root: Path | None = None) -> str:
+    """What a person types before the name of a command: in the kit's folder, or in one below it where `root` names
+    that."""
+    below = Path.cwd() if root is not None else Path()
+    up = "../" * len(below.relative_to(root).parts) if root is not None and below.is_relative_to(root) else ""
+    return f"python {up}raysteps" if is_windows() else f"{up or './'}raysteps"
 
 
 def quote_command(words: Sequence[str]) -> str:

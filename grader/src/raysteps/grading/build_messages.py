@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from raysteps.common.text import join_and, nearest, printable, shorten
 from raysteps.course.manifest import Step, read_all_steps
-from raysteps.course.stubs import borrowed_functions, included, uses
+from raysteps.course.stubs import borrowed_functions, included, same_code, uses
 from raysteps.results.statuses import NOT_BUILT
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.compile import Compiled, clean_log, own_name
@@ -242,6 +242,8 @@ def _as_in_a_header(name: str) -> str:
 
 def _in_its_place(names: tuple[str, ...], source: str) -> str:
     """A line about what the file has that may be meant to be the first of these, or nothing."""
+    if same_code(source, ""):
+        return "\nThe file is empty. Was it saved? `reset` with the number of the step puts the stub there."
     name = names[0].partition("(")[0].rpartition("::")[2]
     defined = list(dict.fromkeys(_DEFINED.findall(source)))[:_MAX_DEFINED]
     if "::" in names[0].partition("(")[0].replace("raysteps::", "") and name in defined:
@@ -327,10 +329,18 @@ def missing_message(names: tuple[str, ...]) -> str:
     return f"It does not build: {shown} {which} exactly as the header declares."
 
 
-def missing_here(names: tuple[str, ...], source: str) -> str:
+def missing_here(step: Step, names: tuple[str, ...], source: str) -> str:
     """The same of names as a linker writes them, with what the file may have in their place."""
     names = tuple(map(_as_in_a_header, names))
-    return missing_message(names) + _in_its_place(names, source)
+    return missing_message(names) + (_of_another_step(step, source) or _in_its_place(names, source))
+
+
+def _of_another_step(step: Step, source: str) -> str:
+    """A line about a file that asks for the header of another step, and not for that of its own."""
+    headers = [name.strip('"') for name in included(source) if name.startswith('"steps/')]
+    if not headers or any(name.startswith(f"steps/{step.id}/") for name in headers):
+        return ""
+    return f"\nThe file includes {printable(headers[-1])}: is it that step's, saved in the place of {step.file}?"
 
 
 def undefined_message(names: tuple[str, ...]) -> str:
@@ -402,5 +412,5 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
     if compiled.undefined:
         return undefined_here(step, compiled.undefined, source)
     if compiled.missing:
-        return missing_here(compiled.missing, source)
+        return missing_here(step, compiled.missing, source)
     return compile_message(step, source, compiled.ran)

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass
+from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
@@ -73,26 +74,27 @@ class Hints:
         return [self.level(step, level) for level in range(1, self.reached(step) + 1)]
 
 
-def no_other(step: Step) -> str:
-    """That all hints were read, and where to go on."""
+def no_other(step: Step, root: Path | None = None) -> str:
+    """That all hints were read, and where to go on. `root`: of the kit, where it is told on a command line."""
+    own = own_command(root)
     handout = f"steps/{step.id}/README.md"
     if not step.hints:
         return f"Step {step.number} has no hints. What to do stands in {handout}."
     all_hints = f"all {count(len(step.hints), 'hint')}" if len(step.hints) > 1 else "the only hint"
     return (
-        f"You have read {all_hints} of step {step.number}; `{own_command()} hint {step.number} --again` shows them.\n"
+        f"You have read {all_hints} of step {step.number}; `{own} hint {step.number} --again` shows them.\n"
         f'Go on in {handout}: "A worked example" and "Wrong pictures and their causes".\n'
-        f"`{own_command()} inspect SCENE X Y --step {step.index}` follows one wrong pixel."
+        f"`{own} inspect SCENE X Y --step {step.index}` follows one wrong pixel."
     )
 
 
-def _print(console: Console, step: Step, hints: list[Hint]) -> None:
+def _print(console: Console, step: Step, hints: list[Hint], own: str) -> None:
     for hint in hints:
         console.print(f"[bold]{escape(step.title)}[/bold], hint {hint.level} of {hint.of}", highlight=False)
         console.print(escape(hint.text), highlight=False)
         console.print()
     last = hints[-1]
-    more = f": ./raysteps hint {step.number}" if last.level < last.of else ""
+    more = f": {own} hint {step.number}" if last.level < last.of else ""
     console.print(f"{last.left}{more}", style="dim", highlight=False)
 
 
@@ -104,21 +106,21 @@ def print_hint(
     project: Project, step: Step, console: Console, *, level: int | None = None, all_: bool = False, again: bool = False
 ) -> int:
     """The next one, or those that were asked for."""
-    hints = Hints(project)
+    hints, own = Hints(project), own_command(project.root)
     if not step.hints:
-        _say(console, no_other(step))
+        _say(console, no_other(step, project.root))
     elif all_:
-        _print(console, step, [hints.level(step, each) for each in range(1, len(step.hints) + 1)])
+        _print(console, step, [hints.level(step, each) for each in range(1, len(step.hints) + 1)], own)
     elif again:
         seen = hints.seen(step)
         if seen:
-            _print(console, step, seen)
+            _print(console, step, seen, own)
         else:
-            console.print(f"No hint of step {step.number} was read yet: ./raysteps hint {step.number}", highlight=False)
+            console.print(f"No hint of step {step.number} was read yet: {own} hint {step.number}", highlight=False)
     else:
         hint = hints.level(step, level) if level is not None else hints.following(step)
         if hint is None:
-            _say(console, no_other(step))
+            _say(console, no_other(step, project.root))
         else:
-            _print(console, step, [hint])
+            _print(console, step, [hint], own)
     return 0

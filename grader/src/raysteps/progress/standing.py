@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from raysteps.common.errors import reason
+from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.common.platform import own_command
 from raysteps.common.text import join_and, tenths
@@ -24,6 +24,7 @@ from raysteps.grading.scoring import max_points
 from raysteps.results.statuses import in_words
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
+from raysteps.submission.load import load_submission
 
 if TYPE_CHECKING:  # what checks the types of documents takes long to load
     from raysteps.results.model import Results, StepResult
@@ -92,7 +93,7 @@ class Standing:
     kind: Kind
     last: LastCheck | None = None
     unfinished: tuple[str, ...] = ()
-    closed: str = ""  # why the file, which may hold work, cannot be opened
+    closed: str = ""  # why the file, which may hold work, cannot be opened, or which one lies in its place
 
     @property
     def is_done(self) -> bool:
@@ -131,6 +132,14 @@ def own_source(project: Project, step: Step) -> bytes | None:
         return None
 
 
+def misplaced(project: Project, step: Step) -> str:
+    """Of a step whose file is not there: which one may be meant, such as phong_shading.cpp.txt, or nothing."""
+    try:
+        return load_submission(project.steps, [step]).notes.get(step.id, "")
+    except UsageError:  # nothing that could be meant
+        return ""
+
+
 def standing_of(project: Project, step: Step, last: LastCheck | None) -> Standing:
     """Compares the file with the stub and with what was checked last."""
     try:
@@ -140,7 +149,7 @@ def standing_of(project: Project, step: Step, last: LastCheck | None) -> Standin
     except RejectedFile:
         return Standing(step, "unreadable")
     if source is None:
-        return Standing(step, "missing")
+        return Standing(step, "missing", closed=misplaced(project, step))
     text = source.decode("utf-8", "replace")
     if same_code(text, pristine_stub(project, step)):
         return Standing(step, "not-started", unfinished=step.functions)
@@ -181,7 +190,7 @@ def shown(project: Project, step: Step, name: str) -> str:
 
 # The commands `list` and `next`.
 
-ALL_DONE = "All steps are done. Next: `./raysteps finale` makes a picture, a page and a poster with them."
+ALL_DONE = "All steps are done. Next: `{} finale` makes a picture, a page and a poster with them."
 
 _OF_THE_VISIBLE_PART = "Points of the visible part, as `check` shows them; your course gives the rest."
 
@@ -239,30 +248,31 @@ def list_steps(project: Project, console: Console) -> int:
     found = standings(project)
     following = next_of(found)
     print_list(project, console, found, following)
-    told = next((f"next: {_to_type(standing)}" for standing in found if standing.step == following), ALL_DONE)
-    console.print(f"\n{told}", highlight=False)
+    own = own_command(project.root)
+    steps = (f"next: {_to_type(own, standing)}" for standing in found if standing.step == following)
+    console.print(f"\n{next(steps, ALL_DONE.format(own))}", highlight=False)
     return 0
 
 
-def _to_type(standing: Standing) -> str:
+def _to_type(own: str, standing: Standing) -> str:
     """A stub is put in the place of what is broken, but not of work that is only closed: check says what to do."""
     command = "check" if standing.closed else "reset" if standing.is_broken else "watch"
-    return f"{own_command()} {command} {standing.step.number}"
+    return f"{own} {command} {standing.step.number}"
 
 
-def _to_write(standing: Standing) -> str:
+def _to_write(own: str, standing: Standing) -> str:
     left = standing.unfinished
     if standing.kind == "checked" and standing.last is not None and standing.last.status == "does-not-build":
-        return f" (it does not build: {own_command()} check {standing.step.number} shows where)"
+        return f" (it does not build: {own} check {standing.step.number} shows where)"
     return f" ({join_and(left)} {'is' if len(left) == 1 else 'are'} still to be written)" if left else ""
 
 
 def next_step(project: Project, console: Console) -> int:
     """What to work on, what to open and what to type."""
-    found = standings(project)
+    found, own = standings(project), own_command(project.root)
     step = next_of(found)
     if step is None:
-        console.print(ALL_DONE, highlight=False)
+        console.print(ALL_DONE.format(own), highlight=False)
         return 0
     standing = next(each for each in found if each.step == step)
     points = f"{_points(project, [step])} points{', bonus' if step.bonus else ''}"
@@ -271,12 +281,12 @@ def next_step(project: Project, console: Console) -> int:
     )
     lines = [
         ("read", shown(project, step, "README.md")),
-        ("write", shown(project, step, step.file) + _to_write(standing)),
-        ("type", _to_type(standing)),
-        ("stuck", f"{own_command()} hint {step.number}"),
+        ("write", shown(project, step, step.file) + _to_write(own, standing)),
+        ("type", _to_type(own, standing)),
+        ("stuck", f"{own} hint {step.number}"),
     ]
     if standing.is_broken:
-        lines = [("file", shown(project, step, step.file)), ("type", _to_type(standing))]
+        lines = [("file", shown(project, step, step.file)), ("type", _to_type(own, standing))]
     for label, text in lines:
         console.print(f"  {label:<6} {escape(text)}", highlight=False, soft_wrap=True)
     return 0

@@ -33,7 +33,7 @@ from raysteps.images.compare import write_png
 from raysteps.images.render import shown_reference
 from raysteps.progress import own_check  # noqa: F401 - ahead of time
 from raysteps.progress.check import check_steps
-from raysteps.progress.standing import own_source
+from raysteps.progress.standing import misplaced, own_source
 from raysteps.results.model import ImageResult, StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Sandbox
@@ -163,7 +163,8 @@ def look(project: Project, name: str) -> None:
         _tell(WorkerLine(error=f"{step.file}: {reason(error)}"))
         return
     if source is None:
-        _tell(WorkerLine(error=f"{step.file} is not there; {own_command()} reset {step.number} puts the stub there"))
+        there = f"{step.file} is not there; {own_command()} reset {step.number} puts the stub there"
+        _tell(WorkerLine(error=misplaced(project, step) or there))
         return
     tell(QuickLook(kit, step, LimitsOnly(), out, tell, _say).look(source.decode("utf-8", "replace")), complete=True)
 
