@@ -46,6 +46,9 @@ def test_files_in_and_out(tmp_path: Path, grades: Path, capsys: pytest.CaptureFi
     table = tmp_path / "asked.csv"
     table.write_text("submission,kind,step,text,author\nann,request,1,was it right?,Ada\n")
     assert main(["desk", str(grades), "--import", str(table)]) == 0
+    assert f"{table}: 1 row taken in that the class did not have" in capsys.readouterr().out
+    assert main(["desk", str(grades), "--import", str(table)]) == 0
+    assert f"{table}: nothing is new" in capsys.readouterr().out
     results = json.loads((grades / "submissions" / "ann" / "results.json").read_text())
     assert results["steps"][0]["review"]["requests"][0]["text"] == "was it right?"
     assert main(["desk", str(grades), "--export", str(tmp_path / "said.json")]) == 0

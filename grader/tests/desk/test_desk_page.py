@@ -100,6 +100,7 @@ def test_a_comment_by_keyboard_alone(pages: Watched, server: DeskServer, grades:
     _has_focus(page, "tbody tr:first-child a")
     _press(page, "j", "k", "j", "Enter")
     _is_open(page, "bob")
+    assert re.search(r", Camera rays: \w+", page.locator(".desk-tab").first.text_content() or "")  # no sign alone
     _press(page, "l", "ArrowDown", "c")
     page.keyboard.type("why one? just asking")
     _press(page, "Control+Enter")
@@ -365,6 +366,10 @@ def test_what_the_compiler_said_keeps_its_columns(watched: Watched, tmp_path: Pa
         assert page.locator(".desk-side .said").last.inner_text() == "Look up."
         assert_accessible(page)
         watched.close()
+
+
+def test_without_scripts_the_desk_says_what_it_needs(pages: Watched, server: DeskServer) -> None:
+    assert "needs scripts" in pages.open(server.address, scripts=False).locator("noscript").inner_text()
 
 
 def test_help_tells_all_keys(pages: Watched, server: DeskServer) -> None:

@@ -15,6 +15,7 @@ from raysteps.cli import port
 from raysteps.common.errors import UsageError
 from raysteps.common.local_server import end_as_interrupted, on_a_desktop, shown_in_browser
 from raysteps.common.platform import kit_command, refuse_on_windows
+from raysteps.common.text import count
 from raysteps.course.project import Project
 from raysteps.desk.desk import Desk, DeskServer
 from raysteps.desk.file_writer import check_folder, write_all
@@ -89,7 +90,9 @@ def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int
     with telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
         if arguments.taken:
             new = import_file(database, arguments.taken, arguments.author or _login())
-            console.print(f"{arguments.taken}: {new} new", highlight=False, markup=False, soft_wrap=True)
+            rows = f"{count(new, 'row')} taken in that the class did not have (comments, points, requests and the like)"
+            told = rows if new else "nothing is new: the class has all of it"
+            console.print(f"{arguments.taken}: {told}", highlight=False, markup=False, soft_wrap=True)
         if arguments.export:
             amount = export_file(database, arguments.export)
             console.print(f"{arguments.export}: {amount} written", highlight=False, markup=False, soft_wrap=True)

@@ -112,7 +112,9 @@ class DeskSubmission {
       tab(id, `${number} ${status.sign} ${points} of ${max}`, status.tone, String(Number(number))),
     );
     tabs.forEach((button, at) => {
-      button.title = `${this.view.steps[at].title}: ${this.view.steps[at].status.words}`;
+      const { title, status } = this.view.steps[at];
+      button.title = `${title}: ${status.words}`;
+      button.append(make("span", { class: "hidden-text" }, `, ${button.title}`));
     });
     const nav = make("nav", { class: "desk-tabs", "aria-label": "Steps" }, ...tabs);
     nav.append(tab(deskWhole, "Whole", "", "0"));
