@@ -24,7 +24,6 @@ from raysteps.grading.scoring import max_points
 from raysteps.results.statuses import in_words
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
-from raysteps.submission.load import load_submission
 
 if TYPE_CHECKING:  # what checks the types of documents takes long to load
     from raysteps.results.model import Results, StepResult
@@ -134,6 +133,8 @@ def own_source(project: Project, step: Step) -> bytes | None:
 
 def misplaced(project: Project, step: Step) -> str:
     """Of a step whose file is not there: which one may be meant, such as phong_shading.cpp.txt, or nothing."""
+    from raysteps.submission.load import load_submission  # rarely, and it takes long to load
+
     try:
         return load_submission(project.steps, [step]).notes.get(step.id, "")
     except UsageError:  # nothing that could be meant
