@@ -167,6 +167,14 @@ TEST_CASE("bad OBJ files", "[obj][errors]") {
           "bad.obj:2:3: expected a number of one of the 1 positions so far, found `0`");
 }
 
+TEST_CASE("an OBJ file in UTF-16 is told as such", "[obj][errors]") {
+    const auto path = std::filesystem::temp_directory_path() / "raysteps-utf-16.obj";
+    write_file(path, std::string("\xff\xfev\0\n\0", 6));
+    CHECK(error_of([&] { return read_obj(path); }) ==
+          display_name(path) + ":1:1: expected a text in UTF-8, found one in UTF-16: save it in UTF-8");
+    std::filesystem::remove(path);
+}
+
 TEST_CASE("textures: a screen's bytes become light", "[texture]") {
     Image image(2, 1);
     image.at(0, 0) = {255, 0, 188};
