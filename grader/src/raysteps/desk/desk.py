@@ -21,7 +21,7 @@ from raysteps.classroom.class_document import Standings, still_true
 from raysteps.classroom.class_files import CLASS_JSON
 from raysteps.classroom.database import FILE, ClassDatabase, Source, telling_of
 from raysteps.classroom.review import line_now, review_results
-from raysteps.common.documents import Malformed, convert, parse, plain
+from raysteps.common.documents import Malformed, convert, plain
 from raysteps.common.errors import RaystepsError, UsageError
 from raysteps.common.local_server import HTML, JSON, LocalHandler, LocalServer
 from raysteps.common.text import clean, number, plain_letters, printable
@@ -374,8 +374,8 @@ class _Handler(LocalHandler):
             self.answer(413, f"Expected at most {_MAX_BODY} bytes.\n")
             return
         try:
-            said = parse(self.rfile.read(int(length)), object)
-        except Malformed:
+            said = json.loads(self.rfile.read(int(length)))
+        except (ValueError, RecursionError):
             self.answer(400, "Expected JSON.\n")
             return
         match rest:
@@ -391,6 +391,8 @@ class _Handler(LocalHandler):
             code, view = 409, {"error": str(error)}
         except RaystepsError as error:
             code, view = 400, {"error": str(error)}
+        except UnicodeEncodeError:
+            code, view = 400, {"error": "text: holds half a character"}
         except sqlite3.Error as error:
             code, view = 500, {"error": f"the database of the class: {error}"}
         self.answer(code, json.dumps(view, ensure_ascii=False), f"{JSON}; charset=utf-8")
