@@ -18,7 +18,7 @@ from raysteps.common.text import join_and
 from raysteps.course.manifest import choose, kit_steps, read_all_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs, write_stubs
-from raysteps.desk.said import AnnotationFile
+from raysteps.desk.annotation_files import AnnotationFile
 from raysteps.exports.similar_pairs import Similarity
 from raysteps.inspector.model import Record
 from raysteps.judge.counterexamples import CaseFile

@@ -19,11 +19,11 @@ from pathlib import Path
 
 from raysteps.common.files import write_bytes
 from raysteps.common.process import Outcome
-from raysteps.sandbox.beside import Files, Trusted, asking, trusted_limits
+from raysteps.sandbox.beside import Files, TrustedProcess, running_beside, trusted_limits
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.monitor import Usage, descendants, monitor, usage_of
 from raysteps.sandbox.namespaces import tool
-from raysteps.sandbox.rlimits import limit_words, words_of
+from raysteps.sandbox.rlimits import prlimit_command, prlimit_options
 from raysteps.sandbox.task import Input, Isolation, Output, Sandbox, Task, TaskResult
 from raysteps.sandbox.task_dir import PathMap, TaskDir, nameless_file
 
@@ -45,13 +45,13 @@ class _Group:
             os.killpg(self._process.pid, signal.SIGKILL)
 
 
-def _start_trusted(task: Task, files: Files, stack: ExitStack) -> Trusted:
+def _start_trusted(task: Task, files: Files, stack: ExitStack) -> TrustedProcess:
     """Without a fence: the box holds the kit's own code, too."""
     folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-run-")))
     inside = PathMap(task, lambda _, given: str(given.path))
     inside.write_to_folder(folder, str(folder))
     process = subprocess.Popen(
-        [tool("prlimit"), *words_of(trusted_limits(task.limits)), *inside.command()],
+        [tool("prlimit"), *prlimit_options(trusted_limits(task.limits)), *inside.command()],
         env=files.environment,
         stdin=files.stdin,
         stdout=files.stdout,
@@ -60,7 +60,7 @@ def _start_trusted(task: Task, files: Files, stack: ExitStack) -> Trusted:
         cwd=folder,
         start_new_session=True,
     )
-    return Trusted(process, lambda code: code, inside.outputs)
+    return TrustedProcess(process, lambda code: code, inside.outputs)
 
 
 class Direct:
@@ -73,7 +73,7 @@ class Direct:
         given = task.limits
         limits = replace(given, wall_seconds=max(given.wall_seconds, _PATIENCE * given.cpu_seconds))
         with ExitStack() as stack:
-            asked = stack.enter_context(asking(replace(task, limits=limits), _start_trusted))
+            asked = stack.enter_context(running_beside(replace(task, limits=limits), _start_trusted))
             wire = None if asked is None else asked.wire
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-run-")))
             place = TaskDir(folder, None)
@@ -89,7 +89,7 @@ class Direct:
             start = time.monotonic()
             process = stack.enter_context(
                 subprocess.Popen(
-                    [*limit_words(limits, memory=True), *command],
+                    [*prlimit_command(limits, memory=True), *command],
                     stdin=nameless_file(task.stdin, stack) if wire is None else wire.stdin,
                     stdout=subprocess.PIPE if wire is None else wire.stdout,
                     stderr=subprocess.PIPE,
@@ -116,7 +116,7 @@ class Direct:
 # mistake that the diagnosis learned already. Nobody's code is strange here, so no keeper stands between; limits stay.
 
 
-class Remembered:
+class CachingSandbox:
     """Hands on what was not run yet. Answers lie in `folder`, by what went in; `always` goes into every one of them:
     what is not among a task's words and files, such as the compiler's version. A task that was stopped is run again,
     since a clock stopped it."""
@@ -234,6 +234,6 @@ def plain_sandbox() -> Sandbox:
     return Direct() if sys.platform == "linux" else LimitsOnly()
 
 
-def sandbox_of_the_kit(folder: Path, always: str) -> Remembered:
+def sandbox_of_the_kit(folder: Path, always: str) -> CachingSandbox:
     """For what nobody else wrote."""
-    return Remembered(plain_sandbox(), folder, always)
+    return CachingSandbox(plain_sandbox(), folder, always)

@@ -11,7 +11,7 @@ from pathlib import Path
 from raysteps.common.files import write_json
 from raysteps.common.platform import executable
 from raysteps.course.project import Project
-from raysteps.course.tracked_files import places
+from raysteps.course.tracked_files import list_files
 from raysteps.toolchain.cmake import BuildTree
 from tools.selftest.checks import Check, Report
 from tools.selftest.programs import command
@@ -38,7 +38,7 @@ def _biome(project: Project, *words: str) -> Report:
 
 
 def _cpp(project: Project, *words: str) -> Report:
-    names = [place for place in places(project.root) if _FORMATTED.fullmatch(place.as_posix())]
+    names = [place for place in list_files(project.root) if _FORMATTED.fullmatch(place.as_posix())]
     files = [path for name in names if (path := project.root / name).is_file()]
     return command([_tool("clang-format"), *words, *files], project.root)
 

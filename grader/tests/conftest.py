@@ -9,7 +9,7 @@ from read_documents import FOLDER, ReadDocuments
 
 from raysteps.course.manifest import Step, kit_steps, read_steps
 from raysteps.course.project import Project, here
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.course.stubs import stub_for, without_markers
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -40,7 +40,7 @@ def no_course(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     empty = tmp_path_factory.mktemp("course") / "course.toml"
     empty.touch()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(PLACE, str(empty))
+        patch.setenv(COURSE_VARIABLE, str(empty))
         yield
 
 

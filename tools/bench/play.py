@@ -17,7 +17,7 @@ from rich.console import Console
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.project import Project
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.course.stubs import without_markers
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer
@@ -39,17 +39,17 @@ _SUMMED = "() => /tests pass|does not compile/.test(document.getElementById('pla
 @contextmanager
 def _both_parts() -> Iterator[None]:
     """A course that has all steps, whatever that of this kit has."""
-    before = os.environ.get(PLACE)
+    before = os.environ.get(COURSE_VARIABLE)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as name:
         course = Path(name) / "course.toml"
         course.write_text("parts = [1, 2]\n", encoding="utf-8")
-        os.environ[PLACE] = str(course)
+        os.environ[COURSE_VARIABLE] = str(course)
         try:
             yield
         finally:
-            os.environ.pop(PLACE)
+            os.environ.pop(COURSE_VARIABLE)
             if before is not None:
-                os.environ[PLACE] = before
+                os.environ[COURSE_VARIABLE] = before
 
 
 @contextmanager

@@ -24,7 +24,7 @@ from raysteps.course.mutants import reference_source, replaced_once
 from raysteps.course.project import Project
 from raysteps.judge.hidden_tests import make_cases, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.judge.worker import Ask, ask_student, reference_unkept
+from raysteps.judge.worker import Ask, ask_student, uncached_reference_answers
 from raysteps.results.model import HiddenResult
 from raysteps.sandbox.task import Sandbox, TaskResult
 from raysteps.toolchain.build_kit import build_kit
@@ -41,7 +41,7 @@ _SECONDS = 120.0  # of a processor, for one function
 
 
 @dataclass(frozen=True)
-class Planted:
+class PlantedBias:
     """A place of a reference where what is estimated is made larger by a factor."""
 
     number: str
@@ -54,12 +54,12 @@ class Planted:
 
 
 PLANTED = (
-    Planted("12", "sampled_light", "return radiance * hit", "return FACTOR * radiance * hit"),
-    Planted("12", "sample_sphere", "1.0F / (2.0F * k_pi * height)}", "1.0F / (FACTOR * 2.0F * k_pi * height)}"),
-    Planted("13", "path_light", "Color weight = k_white;", "Color weight(FACTOR);"),
-    Planted("14", "scatter_metal", ".weight = fresnel * seen", ".weight = FACTOR * fresnel * seen"),
-    Planted("14", "scatter_glass", ".weight = Color(weight)", ".weight = Color(FACTOR * weight)"),
-    Planted("15", "mis_path_light", "Color weight = k_white;", "Color weight(FACTOR);"),
+    PlantedBias("12", "sampled_light", "return radiance * hit", "return FACTOR * radiance * hit"),
+    PlantedBias("12", "sample_sphere", "1.0F / (2.0F * k_pi * height)}", "1.0F / (FACTOR * 2.0F * k_pi * height)}"),
+    PlantedBias("13", "path_light", "Color weight = k_white;", "Color weight(FACTOR);"),
+    PlantedBias("14", "scatter_metal", ".weight = fresnel * seen", ".weight = FACTOR * fresnel * seen"),
+    PlantedBias("14", "scatter_glass", ".weight = Color(weight)", ".weight = Color(FACTOR * weight)"),
+    PlantedBias("15", "mis_path_light", "Color weight = k_white;", "Color weight(FACTOR);"),
 )
 
 
@@ -140,7 +140,7 @@ def _once(kit: BuiltKit) -> Ask:
 
     def ask(cases: bytes, _: float) -> TaskResult:
         if cases not in known:
-            known[cases] = reference_unkept(kit, cases)
+            known[cases] = uncached_reference_answers(kit, cases)
         return known[cases]
 
     return ask

@@ -46,7 +46,7 @@ class Share:
 
 
 @dataclass(frozen=True)
-class Gate:
+class LimitMargin:
     """What one picture can tell apart. `unseen` are mistakes that it hardly shows."""
 
     worst: Share
@@ -88,7 +88,7 @@ def plain(value: float) -> str:
 
 def gate_between(
     correct: Mapping[str, float], mistakes: Mapping[str, Sequence[float]], pixels: int, written: float
-) -> Gate:
+) -> LimitMargin:
     """`correct`: the worst share of each; `mistakes`: one share for each seed, of which the least counts."""
     whose = max(correct, key=lambda name: correct[name])
     worst = Share(max(correct[whose], _LEAST_WRONG / pixels), whose if correct[whose] else "")
@@ -96,10 +96,10 @@ def gate_between(
     seen = {name: share for name, share in least.items() if share > max(worst.value, _HANDFUL / pixels)}
     unseen = tuple(name for name in least if name not in seen)
     if not seen:
-        return Gate(worst, None, unseen, written if written > worst.value else rounded(4 * worst.value), written)
+        return LimitMargin(worst, None, unseen, written if written > worst.value else rounded(4 * worst.value), written)
     mildest = min(seen, key=lambda name: seen[name])
     limit = rounded(math.sqrt(worst.value * seen[mildest]))
-    return Gate(worst, Share(seen[mildest], mildest), unseen, limit, written)
+    return LimitMargin(worst, Share(seen[mildest], mildest), unseen, limit, written)
 
 
 # The pictures of a step, visible and hidden, each with the limit that it is judged by.
@@ -320,7 +320,7 @@ class CalibratedPicture:
     """One limit with what it is made from."""
 
     limited: LimitedPicture
-    gate: Gate
+    gate: LimitMargin
 
 
 @dataclass(frozen=True)

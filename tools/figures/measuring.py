@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import one_at_a_time, write_json
+from raysteps.common.files import file_lock, write_json
 from raysteps.common.process import run
 from raysteps.common.text import shorten
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import reference_source, replaced_once
 from raysteps.course.project import generated
-from raysteps.images.compare import Pixels, gaps, parse_ppm
+from raysteps.images.compare import Pixels, parse_ppm, pixel_differences
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Output, Task, Word
 from raysteps.toolchain.compile import Program, StudentBuild
@@ -162,7 +162,7 @@ def depths(kit: BuiltKit) -> Measurement:
 
 
 def _share(pixels: Pixels, right: Pixels) -> float:
-    return float((gaps(pixels, right) > 8).mean())
+    return float((pixel_differences(pixels, right) > 8).mean())
 
 
 def thresholds(kit: BuiltKit) -> Measurement:
@@ -201,7 +201,7 @@ def _key(kit: BuiltKit, names: Sequence[str]) -> str:
 def measured(kit: BuiltKit) -> Measurement:
     """All of it, measured by whoever needs it first."""
     path = kit.folder / "figures" / f"{_key(kit, list(_WHAT))}.json"
-    with one_at_a_time(path.with_suffix(".lock")):
+    with file_lock(path.with_suffix(".lock")):
         if not path.is_file():
             with ThreadPoolExecutor(2) as pool:
                 results = list(pool.map(lambda measure: measure(kit), _WHAT.values()))

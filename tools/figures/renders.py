@@ -16,7 +16,7 @@ from raysteps.common.files import write_bytes
 from raysteps.course.mutants import reference_source, replaced_once
 from raysteps.course.project import generated
 from raysteps.course.stubs import stub_for
-from raysteps.images.compare import Pixels, pixels_differ, read_png, read_ppm
+from raysteps.images.compare import Pixels, channel_differences, read_png, read_ppm
 from raysteps.images.render import reference_picture
 from raysteps.toolchain.cmake import release_tree
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -221,7 +221,7 @@ def is_current(path: Path, pixels: Pixels) -> bool:
         kept = read_png(path)
     except (OSError, ValueError):
         return False
-    return kept.shape == pixels.shape and float(pixels_differ(kept, pixels).mean()) <= _MAX_APART
+    return kept.shape == pixels.shape and float(channel_differences(kept, pixels).mean()) <= _MAX_APART
 
 
 def write(path: Path, pixels: Pixels) -> None:

@@ -12,7 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.common.platform import processor_count
-from tools.selftest.stamps import Belongs, Stamps
+from tools.selftest.stamps import FileFilter, Stamps
 
 Verdict = Literal["passed", "failed", "skipped"]
 UNCHANGED = "as before: nothing that it depends on has changed"
@@ -35,7 +35,7 @@ class Check:
 
     name: str
     run: Callable[[], Report]
-    inputs: Belongs | None = None
+    inputs: FileFilter | None = None
     beside: bool = False
 
 

@@ -16,7 +16,7 @@ from itertools import pairwise
 from pathlib import PurePosixPath
 
 from raysteps.course.project import Project
-from raysteps.course.tracked_files import places
+from raysteps.course.tracked_files import list_files
 from raysteps.toolchain.fingerprint import fingerprint
 from tools.selftest.stamps import Stamps
 
@@ -31,7 +31,7 @@ _DOTTED = re.compile(r"(raysteps|tools)(\.\w+)+")
 _IMPORTED = re.compile(r"from ((?:raysteps|tools)[\w.]*) import ([\w, ]+)")  # in a program that is a text
 _COMMANDS = "raysteps.cli.app"  # it has the table of all commands, with their modules
 _STARTED = ("-m", "raysteps")
-_READS_ALL = places.__module__
+_READS_ALL = list_files.__module__
 _Nodes = Sequence[ast.AST]  # of a file: what is around something comes before it
 # They read all files too, but nothing that a check tells hangs on it: the name of the built kit's folder, and stamps.
 # What is meant to test them counts all files.

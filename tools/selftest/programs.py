@@ -16,7 +16,7 @@ from raysteps.course.project import Project
 from raysteps.images.compare import PictureError, compare, read_ppm
 from raysteps.toolchain.cmake import BuildTree, what_failed
 from tools.selftest.checks import Check, Report
-from tools.selftest.stamps import Belongs
+from tools.selftest.stamps import FileFilter
 
 # Debian packages that only the tests of the kit need; installed where that needs no question.
 
@@ -101,7 +101,7 @@ def scenes_that_differ(project: Project, program: Path) -> list[str]:
     return lines
 
 
-Inputs = Callable[[str], Belongs]  # what a check that uses a module of the kit depends on
+Inputs = Callable[[str], FileFilter]  # what a check that uses a module of the kit depends on
 
 _TEST_SECONDS = 900
 _FUZZ_RUNS = 400_000  # about a minute

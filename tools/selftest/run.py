@@ -38,7 +38,7 @@ from tools.selftest.programs import (
     use_caches,
     windows_checks,
 )
-from tools.selftest.stamps import Belongs, Stamps
+from tools.selftest.stamps import FileFilter, Stamps
 from tools.test_submissions import outdated_samples
 
 # Checks of what is generated, of the grader's Python, and of the grades.
@@ -77,7 +77,7 @@ def _figures(project: Project) -> Report:
     return Report("failed", text + ", ".join(old)) if old else Report("passed")
 
 
-def python_checks(project: Project, inputs: Callable[..., Belongs]) -> list[Check]:
+def python_checks(project: Project, inputs: Callable[..., FileFilter]) -> list[Check]:
     python = Path(sys.executable)
     generator = project.scenes / "generate.py"
     stubs, samples = inputs(outdated_stubs.__module__), inputs(outdated_samples.__module__)
@@ -98,7 +98,7 @@ _QUICK, _SLOW = "not slow", "slow"  # marks
 _SLOW_TESTS = "hostile submissions and packages for other systems"
 
 
-def _not_seen(folder: Path, inputs: Mapping[str, Belongs]) -> dict[str, set[str]]:
+def _not_seen(folder: Path, inputs: Mapping[str, FileFilter]) -> dict[str, set[str]]:
     """Documents that were opened for files of tests that are not taken to read them: they would not run again when one
     changes."""
     found: dict[str, set[str]] = {}
@@ -150,7 +150,7 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
     return Report("failed", f"it ran longer than {_PYTEST_SECONDS} s\n{output}" if outcome.timed_out else output)
 
 
-def grade_checks(project: Project, console: Console, inputs: Callable[..., Belongs], *, full: bool) -> list[Check]:
+def grade_checks(project: Project, console: Console, inputs: Callable[..., FileFilter], *, full: bool) -> list[Check]:
     pairs = _PAIRS if full else 0
     name = "grades are true: stubs, references, known mistakes, other ways" + (", pairs of mistakes" if full else "")
     return [
@@ -188,7 +188,7 @@ class _Inputs:
         self._sources = sources
         self._own = sources.places_of(*(f"{__package__}.{name}" for name in _CHECKS))
 
-    def __call__(self, *modules: str, texts: bool = False) -> Belongs:
+    def __call__(self, *modules: str, texts: bool = False) -> FileFilter:
         inputs = self._sources.of_modules(*modules)
         inputs.code |= self._own
         if texts:

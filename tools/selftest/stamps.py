@@ -20,9 +20,9 @@ from pathlib import Path, PurePosixPath
 
 from raysteps.common.files import write_json
 from raysteps.course.project import Project
-from raysteps.course.tracked_files import places
+from raysteps.course.tracked_files import list_files
 
-Belongs = Callable[[str], bool]  # whether a file counts, by its place in the repository
+FileFilter = Callable[[str], bool]  # whether a file counts, by its place in the repository
 
 _PROGRAMS = (
     "ar", "bwrap", "c++", "cc", "ccache", "chromium", "chromium-headless-shell", "clang", "clang++", "cmake", "git",
@@ -71,7 +71,7 @@ class Stamps:
         that it does not ignore, but for one that this program itself prints to."""
         found = {}
         own = list(_printed_to())
-        for place in map(PurePosixPath.as_posix, places(self._project.root)):
+        for place in map(PurePosixPath.as_posix, list_files(self._project.root)):
             path = self._project.root / place
             if _is_made(place) or not path.is_file():
                 continue
@@ -84,12 +84,12 @@ class Stamps:
             found[place] = self._marks[known]
         return found
 
-    def digests(self, checks: Mapping[str, Belongs]) -> dict[str, str]:
+    def digests(self, checks: Mapping[str, FileFilter]) -> dict[str, str]:
         """Of checks by name: of the machine, and of all files whose place belongs."""
         if not checks:
             return {}  # the machine is not asked before its packages are installed
         files, start = self.files(), [machine_mark(), str(self._project.root)]
-        found: dict[Belongs, str] = {}
+        found: dict[FileFilter, str] = {}
         for belongs in checks.values():
             if belongs not in found:
                 found[belongs] = _digest([place + mark for place, mark in files.items() if belongs(place)])
@@ -102,7 +102,7 @@ class Stamps:
         except (OSError, ValueError, KeyError, TypeError):
             return False
 
-    def keep(self, checks: Mapping[str, Belongs], before: Mapping[str, str]) -> None:
+    def keep(self, checks: Mapping[str, FileFilter], before: Mapping[str, str]) -> None:
         """After these checks have passed; `before`: their digests as they began. Not where a file was changed
         meanwhile, since nobody knows what it saw."""
         for name, digest in self.digests(checks).items():

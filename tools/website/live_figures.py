@@ -12,14 +12,14 @@ from importlib.resources import files
 from pathlib import Path
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import one_at_a_time
+from raysteps.common.files import file_lock
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.play.packages import CLANG, fetch
 from raysteps.play.web_clang import WebClang
 from raysteps.play.web_kit import WebKit
 from raysteps.release.leaks import LIVE_PROGRAM
-from raysteps.toolchain.kit_artifacts import paced
+from raysteps.toolchain.kit_artifacts import rate_limited
 
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "\./([\w-]+\.js)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async function|function|class|const) (\w+))", re.MULTILINE)
@@ -99,8 +99,8 @@ def check_live(project: Project) -> None:
 
 def make_live_figures(project: Project, registry: str, say: Callable[[str], None]) -> LiveFigures:
     """With the compiler of the page to work in, which is made ready where it has never run."""
-    cache, far = project.build / "play", paced(say)
-    with one_at_a_time(cache / ".lock", lambda: say("waiting for another command")):
+    cache, far = project.build / "play", rate_limited(say)
+    with file_lock(cache / ".lock", lambda: say("waiting for another command")):
         clang = WebClang(fetch(CLANG, cache / "packages", registry, far), cache, say)
         program = WebKit(project, clang, far).figures().read_bytes()
     letters = base64.b64encode(gzip.compress(program, mtime=0)).decode("ascii")

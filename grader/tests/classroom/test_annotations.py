@@ -23,7 +23,7 @@ from raysteps.classroom.class_files import refuse_unwritten, write_class
 from raysteps.classroom.database import ClassDatabase
 from raysteps.common.documents import Malformed
 from raysteps.common.errors import UsageError
-from raysteps.desk.said import Said, Scribe
+from raysteps.desk.annotation_files import AnnotationDraft, AnnotationWriter
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 
@@ -47,7 +47,7 @@ def grades(tmp_path: Path, handed_in: Path) -> Path:
 def _say(out: Path, kind: Any, name: str = "ann", **more: Any) -> str:
     """Does it, makes the files anew, and gives what it is called."""
     with closing(ClassDatabase(out)) as database:
-        Scribe(database, name).write(Said(kind, "Ada", **{"text": "because", **more}))
+        AnnotationWriter(database, name).write(AnnotationDraft(kind, "Ada", **{"text": "because", **more}))
         write_class(database, out)
         return all_annotations(database)[-1][1].uid
 

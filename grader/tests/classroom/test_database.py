@@ -16,15 +16,15 @@ from raysteps.classroom.class_files import csv_bytes, safe_cell
 from raysteps.classroom.database import (
     VERSION,
     ClassDatabase,
-    Registered,
-    Registration,
+    RegisteredEntry,
     RunFacts,
+    StudentEntries,
+    explained_sqlite_errors,
     open_database,
     open_readonly,
-    telling_of,
     transaction,
 )
-from raysteps.classroom.jobs import Answer, Job, from_line, to_line
+from raysteps.classroom.jobs import Job, JobResult, from_line, to_line
 from raysteps.classroom.session import submission_key
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.text import FORMULA_SIGNS
@@ -40,7 +40,7 @@ def _facts(uid: str) -> RunFacts:
 
 def _begin(database: ClassDatabase, uid: str = "a") -> int:
     return database.begin_run(
-        _facts(uid), [Registered("ann.zip", "ann", "here")], [Registration("1", "Ann", "", ("ann.zip",))]
+        _facts(uid), [RegisteredEntry("ann.zip", "ann", "here")], [StudentEntries("1", "Ann", "", ("ann.zip",))]
     )
 
 
@@ -48,8 +48,10 @@ def _results(points: float = 1.0) -> Results:
     return Results.of("ann", [StepResult("01-camera-rays", "partial", points, 10.0, False)])
 
 
-def _answer(points: float, **pictures: bytes) -> Answer:
-    return Answer("ann", "graded", _results(points), {f"pictures/{name}.png": data for name, data in pictures.items()})
+def _answer(points: float, **pictures: bytes) -> JobResult:
+    return JobResult(
+        "ann", "graded", _results(points), {f"pictures/{name}.png": data for name, data in pictures.items()}
+    )
 
 
 def _count(database: ClassDatabase, table: str) -> int:
@@ -78,7 +80,7 @@ def test_a_result_is_kept_once_per_run(tmp_path: Path) -> None:
 def test_half_a_result_is_none(tmp_path: Path) -> None:
     with closing(ClassDatabase(tmp_path)) as database:
         run = _begin(database)
-        broken = Answer("ann", "graded", _results(), {"a.png": b"x", "b.png": None})  # type: ignore[dict-item]
+        broken = JobResult("ann", "graded", _results(), {"a.png": b"x", "b.png": None})  # type: ignore[dict-item]
         with pytest.raises(TypeError):
             database.record(run, broken, "key")
         assert (_count(database, "results"), _count(database, "blobs"), _count(database, "pictures")) == (0, 0, 0)
@@ -197,8 +199,8 @@ def test_csv_reads_back() -> None:
 def test_messages_survive_the_way() -> None:
     job = Job(Submission("ann", {"01": b"\0\xff"}, {"02": "n"}, {"01": "r"}), _SETTINGS, "a.b:c", "kit", True, "run")
     assert from_line(to_line(job), Job) == job
-    answer = Answer("ann", "graded", _results(), {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
-    assert from_line(to_line(answer), Answer) == answer
+    answer = JobResult("ann", "graded", _results(), {"pictures/01/a-mine.png": b"\0\xff"}, seconds=1.5, worker="w")
+    assert from_line(to_line(answer), JobResult) == answer
 
 
 _OUTSIDE = "key in $.pictures: expected str matching regex "
@@ -219,9 +221,9 @@ _EITHER = "$: results without a fault, or a fault without results, expected"
     ],
 )
 def test_what_is_no_answer(change: dict[str, object], words: str) -> None:
-    good = json.loads(to_line(Answer("ann", "graded", _results())))
-    with pytest.raises(GraderFault, match=re.escape(f"this is no answer: {words}")):
-        from_line(json.dumps({**good, **change}).encode(), Answer)
+    good = json.loads(to_line(JobResult("ann", "graded", _results())))
+    with pytest.raises(GraderFault, match=re.escape(f"this is no JobResult: {words}")):
+        from_line(json.dumps({**good, **change}).encode(), JobResult)
 
 
 def _graded_folder(out: Path) -> Path:
@@ -276,7 +278,7 @@ def test_a_full_disk_is_the_graders_fault(tmp_path: Path) -> None:
         again = _begin(database, "b")
         with (
             pytest.raises(GraderFault, match="full; make room, then go on"),
-            telling_of(tmp_path, "used"),
+            explained_sqlite_errors(tmp_path, "used"),
         ):
             database.record(again, _answer(9, big=bytes(1 << 20)), "key")
         current = database.current("ann")

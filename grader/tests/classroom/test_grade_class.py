@@ -23,7 +23,7 @@ import raysteps.classroom.class_document
 from raysteps.classroom.entries import folded
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.common.errors import UsageError
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.results.store import validate
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
@@ -463,7 +463,7 @@ def _report(out: Path, name: str) -> tuple[dict[str, Any], str]:
 def test_a_report_says_whose_it_is_how_late_and_what_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     course = tmp_path / "course.toml"
     course.write_text('title = "Graphics 101"\nterm = "Autumn 2026"\nseed = 48213\n')
-    monkeypatch.setenv(PLACE, str(course))
+    monkeypatch.setenv(COURSE_VARIABLE, str(course))
     for name in ("7", "8"):
         write_entry(tmp_path / "in", name, "// points 9")
     roster, policy, out = tmp_path / "roster.csv", tmp_path / "late.toml", tmp_path / "out"

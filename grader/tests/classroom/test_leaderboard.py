@@ -17,8 +17,8 @@ from page_results import of_older_kit
 from rich.console import Console
 
 from raysteps.classroom.class_files import write_class
-from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
-from raysteps.classroom.jobs import Answer
+from raysteps.classroom.database import ClassDatabase, RegisteredEntry, RunFacts
+from raysteps.classroom.jobs import JobResult
 from raysteps.classroom.leaderboard import Leaderboard, print_board, rank, read_entries
 from raysteps.cli.app import main
 from raysteps.cli.leaderboard import add_arguments, run
@@ -43,13 +43,13 @@ def _class(folder: Path, results: Mapping[str, Results | str]) -> Path:
     """A graded class; a text is a fault, or `not graded`."""
     folder.mkdir()
     with closing(ClassDatabase(folder)) as database:
-        entries = [Registered(f"{name}.zip", name, "here") for name in results]
+        entries = [RegisteredEntry(f"{name}.zip", name, "here") for name in results]
         run = database.begin_run(RunFacts("a", "kit", "/in", "1/1", Settings(), [], "", []), entries, [])
         for name, made in results.items():
             if isinstance(made, Results):
-                database.record(run, Answer(name, "graded", made), "key")
+                database.record(run, JobResult(name, "graded", made), "key")
             elif made != "not graded":
-                database.record(run, Answer(name, "fault", None, fault=made), "key")
+                database.record(run, JobResult(name, "fault", None, fault=made), "key")
         database.end_run(run, "complete", {})
         write_class(database, folder)
     return folder

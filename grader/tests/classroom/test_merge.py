@@ -14,7 +14,7 @@ from class_fakes import grade_class, write_entry
 from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.classroom.entries import Shard
 from raysteps.common.errors import UsageError
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 
@@ -148,7 +148,7 @@ def test_shards_of_other_courses_are_told(
     tmp_path: Path, handed_in: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shards = []
-    monkeypatch.setenv(PLACE, str(tmp_path / "course.toml"))
+    monkeypatch.setenv(COURSE_VARIABLE, str(tmp_path / "course.toml"))
     for index, title in ((1, "Optics"), (2, "Graphics")):
         (tmp_path / "course.toml").write_text(f'title = "{title}"')
         shards.append(_grade(tmp_path, index))

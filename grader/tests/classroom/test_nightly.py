@@ -29,7 +29,7 @@ from raysteps.cli.nightly import add_arguments, run
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_if_changed
 from raysteps.course.project import here
-from raysteps.desk.said import Said, Scribe
+from raysteps.desk.annotation_files import AnnotationDraft, AnnotationWriter
 
 pytestmark = [
     pytest.mark.usefixtures("fake_grader"),
@@ -298,7 +298,7 @@ def test_another_kit_takes_no_feedback(course: Course, monkeypatch: pytest.Monke
 def test_killed_before_it_was_given(course: Course, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     course.hand_in("ann", "// points 1\n")
     with monkeypatch.context() as patch:
-        patch.setattr(raysteps.classroom.nightly.Round, "give", _kill)
+        patch.setattr(raysteps.classroom.nightly.NightlyRound, "give", _kill)
         with pytest.raises(Killed):
             course.look()
     assert not course.report("ann")
@@ -478,7 +478,9 @@ def test_what_is_being_uploaded_keeps_the_time_of_its_result(
 def _say(course: Course, name: str, text: str, points: float) -> None:
     """As a desk that a look keeps from writing the files."""
     with closing(ClassDatabase(course.out)) as database:
-        Scribe(database, name).write(Said("points", "Ada", text=text, step="01-camera-rays", points=points))
+        AnnotationWriter(database, name).write(
+            AnnotationDraft("points", "Ada", text=text, step="01-camera-rays", points=points)
+        )
 
 
 def test_a_look_writes_what_was_said_at_the_desk(course: Course) -> None:

@@ -16,9 +16,9 @@ import raysteps.classroom.session
 import raysteps.cli.grade_class
 import raysteps.submission.load
 from raysteps.classroom.database import transaction
-from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.jobs import Job, JobResult
 from raysteps.classroom.local_pool import LocalPool
-from raysteps.cli.grade_class import add_arguments, line_to_go_on, read_options
+from raysteps.cli.grade_class import add_arguments, read_options, resume_command
 from raysteps.course.settings import Course
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
@@ -42,7 +42,7 @@ class _Broken(LocalPool):
     amount = 1
     how: type[BaseException] = KeyboardInterrupt
 
-    def answers(self, jobs: Iterator[Job]) -> Iterator[Answer]:
+    def answers(self, jobs: Iterator[Job]) -> Iterator[JobResult]:
         for at, answer in enumerate(super().answers(jobs)):
             if at == self.amount:
                 raise self.how
@@ -173,7 +173,7 @@ def test_the_line_to_go_on_has_the_same_limits(tmp_path: Path) -> None:
     add_arguments(parser)
     words = ["in", "--out", "out", "--limit", "seconds=0.00001234567", "--limit", "memory_mb=512"]
     options = read_options(parser.parse_args(words), "")
-    line = line_to_go_on(options)
+    line = resume_command(options)
     assert "--limit seconds=0.00001234567 --limit memory_mb=512" in line
     assert read_options(parser.parse_args(shlex.split(line)[2:]), "").limits == options.limits
 
@@ -186,7 +186,7 @@ def test_the_line_to_go_on_has_the_seed_that_would_not_be_taken_anyway(typed: in
     add_arguments(parser)
     seed = [] if typed is None else ["--seed", str(typed)]
     options = read_options(parser.parse_args(["in", "--out", "out", *seed]), "", course)
-    line = line_to_go_on(options)
+    line = resume_command(options)
     assert (words in line) if words else ("--seed" not in line)
     assert read_options(parser.parse_args(shlex.split(line)[2:]), "", course).seed == options.seed
 

@@ -7,9 +7,9 @@ import pytest
 from fake_grader import FAKE
 
 from raysteps.classroom import cluster as cluster_task
-from raysteps.classroom.jobs import Answer, Job, to_line
+from raysteps.classroom.jobs import Job, JobResult, to_line
 from raysteps.classroom.worker import JobRunner
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.results.model import Settings
 from raysteps.submission.load import Submission
 
@@ -25,10 +25,10 @@ class _Slot:
         self.begun, self.go_on = threading.Event(), threading.Event()
         self.made.append(self)
 
-    def grade(self, job: Job) -> Answer:
+    def grade(self, job: Job) -> JobResult:
         self.begun.set()
         assert self.go_on.wait(20)
-        return Answer(job.submission.name, "fault", fault="none")
+        return JobResult(job.submission.name, "fault", fault="none")
 
     def stop(self) -> None:
         self.stopped = True
@@ -72,11 +72,11 @@ def test_what_may_make_two_kits_differ_is_named() -> None:
     fault = JobRunner(lambda _: None).grade(job).fault
     assert "is fake-kit, but the class is graded with another-kit; install the same version of the kit" in fault
     assert "give all the same course.toml" in fault
-    assert PLACE in fault
+    assert COURSE_VARIABLE in fault
 
 
 def test_a_slot_is_kept_for_the_next_job(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_Slot, "grade", lambda self, job: Answer(job.submission.name, "fault", fault="none"))
+    monkeypatch.setattr(_Slot, "grade", lambda self, job: JobResult(job.submission.name, "fault", fault="none"))
     for run in ("one", "two"):
         cluster_task.run_job(_job(run))
     assert len(_Slot.made) == 1

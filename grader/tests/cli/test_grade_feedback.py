@@ -12,7 +12,7 @@ from rich.console import Console
 from raysteps.cli import grade as command
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.results.model import Feedback, Results, Settings
 
 
@@ -66,7 +66,7 @@ def test_the_course_is_told_to_what_writes_the_results(
 ) -> None:
     """It writes them also where the grader then fails."""
     (tmp_path / "course.toml").write_text('title = "Optics"\nterm = "2026"\n')
-    monkeypatch.setenv(PLACE, str(tmp_path / "course.toml"))
+    monkeypatch.setenv(COURSE_VARIABLE, str(tmp_path / "course.toml"))
     told = _grades_to(monkeypatch, document_of([wrong_step(steps[2], tmp_path)]), steps)
     out = tmp_path / "out"
     command.grade(project, command.GradeOptions(tmp_path / "ann", out, Settings()), Console(file=io.StringIO()))

@@ -15,7 +15,7 @@ from raysteps.common.errors import StudentBuildError, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.pipeline import grade_submission
-from raysteps.grading.step import clear
+from raysteps.grading.step import clear_old_results
 from raysteps.judge.counterexamples import SCHEMA, CaseFile, read_case, write_case
 from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, functions_of
@@ -23,7 +23,7 @@ from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import read_plan
 from raysteps.judge.protocol import ProtocolError
 from raysteps.results.model import Feedback, Settings
-from raysteps.results.store import place_of
+from raysteps.results.store import case_path
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import load_submission
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -79,10 +79,10 @@ def test_a_case_can_be_read_back(tmp_path: Path) -> None:
 
 
 def test_names_of_files(steps: list[Step]) -> None:
-    names = [place_of(step.number, function) for step in steps for function in step.functions]
+    names = [case_path(step.number, function) for step in steps for function in step.functions]
     assert len(set(names)) == len(names)
-    assert place_of("02", "Sphere::intersect") == "cases/02-sphere-intersect.json"
-    assert place_of("01", "point_at") == "cases/01-point-at.json"
+    assert case_path("02", "Sphere::intersect") == "cases/02-sphere-intersect.json"
+    assert case_path("01", "point_at") == "cases/01-point-at.json"
 
 
 @pytest.mark.parametrize(
@@ -235,12 +235,12 @@ def test_the_short_form_that_check_prints(
 
 
 def test_old_cases_are_cleared_and_nothing_else(steps: list[Step], tmp_path: Path) -> None:
-    write_case(tmp_path / place_of("02", "closest_hit"), _CASE)
-    clear(tmp_path, steps, steps)
+    write_case(tmp_path / case_path("02", "closest_hit"), _CASE)
+    clear_old_results(tmp_path, steps, steps)
     assert not (tmp_path / "cases").exists()
-    write_case(tmp_path / place_of("02", "closest_hit"), _CASE)
+    write_case(tmp_path / case_path("02", "closest_hit"), _CASE)
     (tmp_path / "cases" / "02-notes.json").write_text("mine")
-    clear(tmp_path, steps, steps)
+    clear_old_results(tmp_path, steps, steps)
     assert [path.name for path in (tmp_path / "cases").iterdir()] == ["02-notes.json"]
 
 

@@ -16,7 +16,7 @@ _START = """
 import os, re, signal, sys, tempfile
 from pathlib import Path
 from raysteps.cli.app import exit_code_of
-from raysteps.cli.supervise import supervised
+from raysteps.cli.supervise import run_with_timeout
 
 def work():
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # from here on, and not only in the middle of what hangs
@@ -25,7 +25,7 @@ def work():
     return {work}
 
 try:
-    code = supervised(work, float(sys.argv[1]))
+    code = run_with_timeout(work, float(sys.argv[1]))
 except BaseException as error:
     code = exit_code_of(error)
 raise SystemExit(code)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.common.files import one_at_a_time
+from raysteps.common.files import file_lock
 from raysteps.common.process import Outcome, run
 
 
@@ -63,10 +63,10 @@ def test_who_has_to_wait_for_a_lock_can_say_so(tmp_path: Path) -> None:
     waits, done = threading.Event(), threading.Event()
 
     def second() -> None:
-        with one_at_a_time(tmp_path / "lock", waits.set):
+        with file_lock(tmp_path / "lock", waits.set):
             done.set()
 
-    with one_at_a_time(tmp_path / "lock", lambda: pytest.fail("nobody holds it")):
+    with file_lock(tmp_path / "lock", lambda: pytest.fail("nobody holds it")):
         thread = threading.Thread(target=second)
         thread.start()
         assert waits.wait(60)

@@ -16,21 +16,21 @@ from rich.console import Console
 
 import raysteps.cli.grade_class
 from raysteps.classroom.class_files import remake_class_page
-from raysteps.classroom.jobs import Answer, Job
+from raysteps.classroom.jobs import Job, JobResult
 from raysteps.classroom.local_pool import LocalPool
 from raysteps.cli import export as exports
 from raysteps.cli.grade_class import add_arguments, read_options
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import chosen_steps, course_manifests, course_steps, dated_steps, read_step, read_steps
 from raysteps.course.project import Project, here
-from raysteps.course.settings import PLACE, Course, read_course
+from raysteps.course.settings import COURSE_VARIABLE, Course, read_course
 from raysteps.release.build_release import due_steps
 from raysteps.release.contents import kit_contents
 
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv(PLACE, str(tmp_path / "course.toml"))
+    monkeypatch.setenv(COURSE_VARIABLE, str(tmp_path / "course.toml"))
     return tmp_path / "course.toml"
 
 
@@ -42,7 +42,7 @@ def _order(course: Course, *words: str) -> tuple[int, Path | None, bool]:
 
 
 def test_without_a_file_nothing_is_settled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv(PLACE, raising=False)
+    monkeypatch.delenv(COURSE_VARIABLE, raising=False)
     assert read_course(Project(tmp_path)) == Course()
     assert (Course().seed_or(None), Course().seed_or(5)) == (1, 5)
 
@@ -54,7 +54,7 @@ def test_it_lies_in_the_kit_or_where_the_environment_says(tmp_path: Path, place:
     place.write_text('seed = 77\nlate_policy = "rules/late.toml"\n')
     assert read_course(Project(kit)) == Course(place, 77, tmp_path / "rules" / "late.toml")  # as older kits had it
     with pytest.MonkeyPatch.context() as patch:
-        patch.delenv(PLACE)
+        patch.delenv(COURSE_VARIABLE)
         assert read_course(Project(kit)).seed == 3
 
 
@@ -263,7 +263,7 @@ def test_a_course_file_that_is_being_edited_loses_no_result(
     tmp_path: Path, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     class Edited(LocalPool):
-        def answers(self, jobs: Iterator[Job]) -> Iterator[Answer]:
+        def answers(self, jobs: Iterator[Job]) -> Iterator[JobResult]:
             found = list(super().answers(jobs))
             place.write_text('title = "half of a')
             yield from found

@@ -28,7 +28,7 @@ from raysteps.course.manifest import (
     steps_words,
 )
 from raysteps.course.project import Project, here
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.exports.autograders import gradescope_zip
 from raysteps.progress.standing import list_steps
 from raysteps.release import build_release
@@ -63,7 +63,7 @@ def settle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], P
     def write(said: str) -> Path:
         place = tmp_path / "course.toml"
         place.write_text(said)
-        monkeypatch.setenv(PLACE, str(place))
+        monkeypatch.setenv(COURSE_VARIABLE, str(place))
         return place
 
     return write

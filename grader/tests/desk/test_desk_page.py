@@ -13,8 +13,8 @@ import pytest
 from browser import Scheme, Watched, assert_accessible, assert_fits_all_screens
 from class_fakes import grade_class, write_entry
 
-from raysteps.classroom.database import ClassDatabase, Registered, RunFacts
-from raysteps.classroom.jobs import Answer
+from raysteps.classroom.database import ClassDatabase, RegisteredEntry, RunFacts
+from raysteps.classroom.jobs import JobResult
 from raysteps.common.local_server import shown_in_browser
 from raysteps.desk.desk import Desk, DeskServer
 from raysteps.results.model import Diagnosis, Results, Settings, StepResult
@@ -325,7 +325,7 @@ def test_filters_and_the_order_of_the_table_lead_from_one_to_the_next(
 
 def _with_mistakes(out: Path, titles: dict[str, str], *messages: str) -> None:
     """A class that nobody graded: who made which mistake in step 01, and what is said of it."""
-    entries = [Registered(name, name, "here") for name in titles]
+    entries = [RegisteredEntry(name, name, "here") for name in titles]
     steps = [{"id": _STEP, "title": "Camera rays", "points": 10, "bonus": False}]
     with closing(ClassDatabase(out)) as database:
         run = database.begin_run(RunFacts("u", "kit", "/in", "1/1", Settings(), steps, "", []), entries, [])
@@ -334,7 +334,7 @@ def _with_mistakes(out: Path, titles: dict[str, str], *messages: str) -> None:
             results = Results.of(
                 name, [StepResult(_STEP, "partial", 5, 10, False, diagnoses=found, messages=[*messages])]
             )
-            database.record(run, Answer(name, "graded", results, worker="w"), "key", sources={_STEP: b"int a;\n"})
+            database.record(run, JobResult(name, "graded", results, worker="w"), "key", sources={_STEP: b"int a;\n"})
         database.end_run(run, "complete", {})
 
 

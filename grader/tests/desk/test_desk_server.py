@@ -18,9 +18,9 @@ from raysteps.classroom.class_files import refuse_unwritten
 from raysteps.classroom.database import LOCK, ClassDatabase
 from raysteps.common.errors import UsageError
 from raysteps.common.files import try_lock
+from raysteps.desk.annotation_files import export_file, import_file
 from raysteps.desk.desk import Desk, DeskServer
 from raysteps.desk.file_writer import may_write, write_all
-from raysteps.desk.said import export_file, import_file
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
 

@@ -12,23 +12,23 @@ from judge_fakes import FakeWorker
 from raysteps.course.manifest import ImageCase
 from raysteps.course.mutants import Mutant
 from raysteps.diagnosis.evidence import (
-    Answers,
     Evidence,
-    ObservedAnswers,
     Picture,
     Questions,
+    WrongAnswer,
+    WrongAnswers,
     answer_similarity,
-    listen,
+    collect_wrong_answers,
 )
 from raysteps.diagnosis.matching import Match, agreement, match, name_mistakes, pair_score
-from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_known, write_known
+from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint, read_fingerprints, write_fingerprints
 from raysteps.images.compare import Pixels
 from raysteps.judge.answers import plainly_wrong
 from raysteps.judge.cases.octree_boxes import NO_PART
 from raysteps.judge.functions import Case, functions_of
 from raysteps.judge.hits import NOTHING_FOUND
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import off
+from raysteps.judge.statistics import ratio_problem
 
 pytestmark = pytest.mark.portable
 
@@ -49,12 +49,12 @@ def _questions(function: str = "mirror") -> Questions:
 _PLAIN = plainly_wrong("the direction")
 
 
-def _wrong(line: str, *numbers: int, problem: str = _PLAIN) -> dict[int, ObservedAnswers]:
-    said = ObservedAnswers(line, problem, plainly_wrong=problem == _PLAIN)
+def _wrong(line: str, *numbers: int, problem: str = _PLAIN) -> dict[int, WrongAnswer]:
+    said = WrongAnswer(line, problem, plainly_wrong=problem == _PLAIN)
     return dict.fromkeys(numbers, said)
 
 
-def _score(mistake: Mapping[int, ObservedAnswers], mine: Mapping[int, ObservedAnswers]) -> float:
+def _score(mistake: Mapping[int, WrongAnswer], mine: Mapping[int, WrongAnswer]) -> float:
     return agreement(_questions(), mistake, mine).score
 
 
@@ -62,10 +62,10 @@ def test_answers_by_chance_are_alike_where_they_are_wrong_in_the_same_way() -> N
     """Whoever turns a frame otherwise has other numbers for one mistake."""
     function = functions_of("12")["unit_disk"]
     case = Case("unit_disk", "a few points", {})
-    said = ObservedAnswers("1 2 3", "a point lies outside of the disk")
-    other = ObservedAnswers("7 8 9", "a point lies outside of the disk")
+    said = WrongAnswer("1 2 3", "a point lies outside of the disk")
+    other = WrongAnswer("7 8 9", "a point lies outside of the disk")
     assert 0.7 < answer_similarity(function, case, "0 0 0", said, other) < 1
-    another = ObservedAnswers("7 8 9", "too many points lie near the rim")
+    another = WrongAnswer("7 8 9", "too many points lie near the rim")
     assert answer_similarity(function, case, "0 0 0", said, another) == 0
 
 
@@ -76,7 +76,7 @@ def test_answers_by_chance_that_are_spread_in_another_way_are_not_alike() -> Non
 
     def similarity(*mine: int, goes_round: bool = False) -> float:
         said, other = (
-            ObservedAnswers(line, "too many points lie near the middle", spread=spread, goes_round=goes_round)
+            WrongAnswer(line, "too many points lie near the middle", spread=spread, goes_round=goes_round)
             for line, spread in (("1 2", (1024, 512, 256, 256)), ("3 4", mine))
         )
         return answer_similarity(function, case, "0 0", said, other)
@@ -96,8 +96,8 @@ def test_answers_by_chance_that_are_wrong_by_another_factor_are_not_alike() -> N
     case = Case("scatter_metal", "any angle and roughness", {})
 
     def similarity(*mine: float, of: tuple[float, ...] = (0.5, 1.0, 2.0)) -> float:
-        said = ObservedAnswers("1 2", "the weight is wrong", times=of)
-        return answer_similarity(function, case, "0 0", said, ObservedAnswers("3 4", "the weight is wrong", times=mine))
+        said = WrongAnswer("1 2", "the weight is wrong", times=of)
+        return answer_similarity(function, case, "0 0", said, WrongAnswer("3 4", "the weight is wrong", times=mine))
 
     assert similarity(0.52, 0.98, 2.1) > 0.7
     assert similarity(0.52, 0.8, 2.1) == 0
@@ -109,18 +109,18 @@ def test_answers_by_chance_that_are_wrong_by_another_factor_are_not_alike() -> N
 
 def test_how_many_times_too_large_numbers_are_does_not_hang_on_their_order() -> None:
     one = np.random.default_rng(1).uniform(0.5, 2, 256)
-    found, other = off("it is wrong", one), off("it is wrong", one[::-1])
+    found, other = ratio_problem("it is wrong", one), ratio_problem("it is wrong", one[::-1])
     assert found == "it is wrong"
     assert found.times == other.times
-    assert found.times != off("it is wrong", 2 * one).times
-    assert all(map(math.isfinite, off("it is wrong", np.array([np.nan, np.inf, 1.0])).times))
+    assert found.times != ratio_problem("it is wrong", 2 * one).times
+    assert all(map(math.isfinite, ratio_problem("it is wrong", np.array([np.nan, np.inf, 1.0])).times))
 
 
 def test_the_same_numbers_are_the_same_answer() -> None:
     questions = _questions()
     function, case = questions.function, questions.cases[0]
     said, *others = (
-        ObservedAnswers(line, "it is wrong", plainly_wrong=True)
+        WrongAnswer(line, "it is wrong", plainly_wrong=True)
         for line in ("4 5 6", "4.0001 5 6", "4 5 -6", "-4 -5 -6", "7 8 9")
     )
     near, one_sign, all_signs, far = (answer_similarity(function, case, "1 2 3", said, other) for other in others)
@@ -129,14 +129,11 @@ def test_the_same_numbers_are_the_same_answer() -> None:
     assert 0.6 < one_sign < 0.7, "beside numbers with the same sign it counts nothing"
     assert all_signs == 0.25, "only signs agree"
     assert far == 0.25
-    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("7 8 9", "it is too long")) == 0
-    telling = [ObservedAnswers(line, "it is too long") for line in ("4 5 6", "7 8 9")]
+    assert answer_similarity(function, case, "1 2 3", said, WrongAnswer("7 8 9", "it is too long")) == 0
+    telling = [WrongAnswer(line, "it is too long") for line in ("4 5 6", "7 8 9")]
     assert 0.25 < answer_similarity(function, case, "1 2 3", *telling) < 0.5
-    assert answer_similarity(function, case, "1 2 3", said, ObservedAnswers("", "crashed")) == 0
-    assert (
-        answer_similarity(function, case, "1 2 3", ObservedAnswers("nan 1 1", "x"), ObservedAnswers("nan 1 1", "x"))
-        == 1
-    )
+    assert answer_similarity(function, case, "1 2 3", said, WrongAnswer("", "crashed")) == 0
+    assert answer_similarity(function, case, "1 2 3", WrongAnswer("nan 1 1", "x"), WrongAnswer("nan 1 1", "x")) == 1
 
 
 def test_a_turned_direction_is_worth_the_same_where_nothing_should_be_found() -> None:
@@ -149,7 +146,7 @@ def test_a_turned_direction_is_worth_the_same_where_nothing_should_be_found() ->
     def similarity(right: str, *mine: str) -> float:
         position, normal, distance = mine
         said, other = (
-            ObservedAnswers(f"hit {place} {rest} {up} 0 0 -1 {far} 1", "it is wrong", plainly_wrong=True)
+            WrongAnswer(f"hit {place} {rest} {up} 0 0 -1 {far} 1", "it is wrong", plainly_wrong=True)
             for place, up, far in (("3 4 5", "0.6 -0.64 0.48", "7"), (position, normal, distance))
         )
         return answer_similarity(function, case, right, said, other)
@@ -173,7 +170,7 @@ def test_whatever_is_said_is_compared(line: str) -> None:
     questions = _questions()
     for other in ("4 5 6", "threw it", "inf inf inf"):
         value = answer_similarity(
-            questions.function, questions.cases[0], "1 2 3", ObservedAnswers(other, "a"), ObservedAnswers(line, "a")
+            questions.function, questions.cases[0], "1 2 3", WrongAnswer(other, "a"), WrongAnswer(line, "a")
         )
         assert 0 <= value <= 1
 
@@ -187,17 +184,17 @@ def test_a_score_is_the_share_of_wrong_cases_that_agree() -> None:
 
 
 def test_cases_that_were_never_asked_count_for_nothing() -> None:
-    unasked = {number: ObservedAnswers("", "", known=False) for number in range(10, 40)}
+    unasked = {number: WrongAnswer("", "", known=False) for number in range(10, 40)}
     assert _score(_wrong("4 5 6", *range(40)), _wrong("4 5 6", *range(10)) | unasked) == 1
 
 
-def _evidence(mine: Answers) -> Evidence:
+def _evidence(mine: WrongAnswers) -> Evidence:
     return Evidence({name: _questions(name) for name in mine}, mine, {})
 
 
 def _matched(
-    mine: Mapping[str, Mapping[int, ObservedAnswers]],
-    known: Mapping[Mutant, Mapping[str, Mapping[int, ObservedAnswers]]],
+    mine: Mapping[str, Mapping[int, WrongAnswer]],
+    known: Mapping[Mutant, Mapping[str, Mapping[int, WrongAnswer]]],
 ) -> list[Match]:
     return [match(mutant, MutantFingerprint(answers, {}), _evidence(mine)) for mutant, answers in known.items()]
 
@@ -269,9 +266,7 @@ def test_mistakes_that_cannot_be_told_apart_are_both_said() -> None:
 
 
 def test_noise_has_no_name() -> None:
-    mine = {
-        number: ObservedAnswers(f"{number} {number + 1} 7", "it is wrong", plainly_wrong=True) for number in range(30)
-    }
+    mine = {number: WrongAnswer(f"{number} {number + 1} 7", "it is wrong", plainly_wrong=True) for number in range(30)}
     known = {_mutant("one"): {"mirror": _wrong("4 5 6", *range(30))}}
     assert not name_mistakes(_matched({"mirror": mine}, known))
 
@@ -436,35 +431,35 @@ def test_a_picture_of_one_colour_has_no_name() -> None:
 def test_fingerprints_come_back_from_their_file(tmp_path: Path) -> None:
     answers = {
         "mirror": {
-            3: ObservedAnswers("1 2 3", "it is wrong", spread=(3, 1), times=(0.5,), plainly_wrong=True),
-            4: ObservedAnswers("", "", known=False),
+            3: WrongAnswer("1 2 3", "it is wrong", spread=(3, 1), times=(0.5,), plainly_wrong=True),
+            4: WrongAnswer("", "", known=False),
         }
     }
     known = {
         "one": MutantFingerprint(answers, {"lit": np.ones((2, 3, 3), dtype=np.uint8)}),
         "two": MutantFingerprint({}, {}),
     }
-    write_known(tmp_path / "03.npz", known)
-    found = read_known(tmp_path / "03.npz")
+    write_fingerprints(tmp_path / "03.npz", known)
+    found = read_fingerprints(tmp_path / "03.npz")
     assert found is not None
     assert found["one"].answers == answers
     assert (found["one"].pictures["lit"] == 1).all()
     assert found["two"] == MutantFingerprint({}, {})
     (tmp_path / "03.npz").write_bytes(b"half of a file")
-    assert read_known(tmp_path / "03.npz") is None
-    assert read_known(tmp_path / "04.npz") is None
+    assert read_fingerprints(tmp_path / "03.npz") is None
+    assert read_fingerprints(tmp_path / "04.npz") is None
 
 
 @pytest.mark.parametrize("line", ["4 5 6", " ".join(["4"] * 5000)])
 def test_who_answers_as_a_known_mistake_has_its_problem(line: str) -> None:
     """So it is judged once: long answers, too, of which only a hash is kept."""
     questions = {"mirror": _questions()}
-    judged = listen(questions, FakeWorker(lambda *_: line), 1.0)
+    judged = collect_wrong_answers(questions, FakeWorker(lambda *_: line), 1.0)
     assert len(judged["mirror"]) == _AMOUNT
     told = {number: replace(one, problem="as the mistake") for number, one in judged["mirror"].items() if number < 9}
-    heard = listen(questions, FakeWorker(lambda *_: line), 1.0, [{"mirror": told}])["mirror"]
+    heard = collect_wrong_answers(questions, FakeWorker(lambda *_: line), 1.0, [{"mirror": told}])["mirror"]
     assert heard == {**judged["mirror"], **told}
-    others = listen(questions, FakeWorker(lambda *_: "7 8 9"), 1.0, [{"mirror": told}])["mirror"]
+    others = collect_wrong_answers(questions, FakeWorker(lambda *_: "7 8 9"), 1.0, [{"mirror": told}])["mirror"]
     assert {one.problem for one in others.values()}.isdisjoint({"as the mistake"})
     assert all(one.plainly_wrong for one in others.values())
-    assert not listen(questions, FakeWorker(lambda *_: "1 2 3"), 1.0, [{"mirror": told}])["mirror"]
+    assert not collect_wrong_answers(questions, FakeWorker(lambda *_: "1 2 3"), 1.0, [{"mirror": told}])["mirror"]

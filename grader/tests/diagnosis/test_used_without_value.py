@@ -7,7 +7,13 @@ from conftest import MakeSubmission, Sources
 
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import replaced_once
-from raysteps.diagnosis.diagnose import Unset, asked_about, declared_without_value, used_without_value, warned_of
+from raysteps.diagnosis.diagnose import (
+    UninitializedVariable,
+    asked_about,
+    uninitialized_variables,
+    used_without_value,
+    warned_of,
+)
 from raysteps.grading.pipeline import grade_submission
 from raysteps.results.model import HiddenResult, Settings, StepResult, TestResult
 from raysteps.sandbox.detect import find_sandbox
@@ -132,7 +138,7 @@ Color Sphere::shade(const Ray& ray) {
 
 
 def test_the_source_shows_what_no_compiler_warns_of() -> None:
-    found = declared_without_value(_SOURCE, "own.cpp")
+    found = uninitialized_variables(_SOURCE, "own.cpp")
     assert [(one.name, one.place, one.function) for one in found] == [
         ("found", "own.cpp:10", "first"),
         ("sum", "own.cpp:12", "first"),
@@ -141,24 +147,24 @@ def test_the_source_shows_what_no_compiler_warns_of() -> None:
         ("many", "own.cpp:23", "Sphere::shade"),
         ("inner", "own.cpp:28", "Sphere::shade"),
     ]
-    assert declared_without_value(_SOURCE.replace("\n", "\r\n"), "own.cpp") == found
+    assert uninitialized_variables(_SOURCE.replace("\n", "\r\n"), "own.cpp") == found
 
 
 @pytest.mark.parametrize(
     "source", ["}}} int x;", "f() { int", "f() { int a = 1; return a; }", "f() { if (int x; x) {} }"]
 )
 def test_it_shows_nothing_else(source: str) -> None:
-    assert not declared_without_value(source, "own.cpp")
+    assert not uninitialized_variables(source, "own.cpp")
 
 
 def test_a_large_source_is_read_once() -> None:
     amount = 100_000
-    found = declared_without_value("f() {\n" + "int a;\n" * amount, "own.cpp")
+    found = uninitialized_variables("f() {\n" + "int a;\n" * amount, "own.cpp")
     assert found[-1].place == f"own.cpp:{amount + 1}"
 
 
 def test_those_of_the_source_are_asked_about(steps: list[Step]) -> None:
-    unset = [Unset(f"v{number}", f"own.cpp:{number}") for number in range(5)]
+    unset = [UninitializedVariable(f"v{number}", f"own.cpp:{number}") for number in range(5)]
     (one,), (many,) = asked_about(unset[:1]), asked_about(unset)
     assert (one.title, one.hint) == (
         "`v0` (own.cpp:0) is declared without a value.",

@@ -7,17 +7,17 @@ import pytest
 
 from raysteps.exports.similar_pairs import (
     GRAM,
+    GUARANTEED_MATCH,
     MAX_TOKENS,
-    SURE,
     WINDOW,
-    Handed,
-    Word,
-    Words,
-    gram_hashes,
+    ComparedSubmission,
+    Token,
+    TokenSequence,
     is_read_whole,
+    kgram_hashes,
     passages,
+    tokenize,
     winnowed,
-    words_of,
 )
 
 pytestmark = pytest.mark.portable
@@ -36,7 +36,7 @@ float brightness(const HitRecord& hit, const glm::vec3& to_light) {
 
 
 def _texts(source: str) -> list[str]:
-    return [word.text for word in words_of(source, _PUBLIC)]
+    return [word.text for word in tokenize(source, _PUBLIC)]
 
 
 @pytest.mark.parametrize(
@@ -73,54 +73,56 @@ def test_what_changes_the_meaning_counts(old: str, new: str) -> None:
 
 
 def test_a_word_knows_where_it_stands() -> None:
-    for word in words_of(_SOURCE, _PUBLIC):
+    for word in tokenize(_SOURCE, _PUBLIC):
         if word.text in _PUBLIC:
             assert _SOURCE[word.start : word.end] == word.text
 
 
-def _words(numbers: list[int]) -> list[Word]:
-    return [Word(str(number), 0, 0) for number in numbers]
+def _words(numbers: list[int]) -> list[Token]:
+    return [Token(str(number), 0, 0) for number in numbers]
 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_what_is_alike_for_long_enough_has_a_fingerprint_in_common(seed: int) -> None:
     draw = random.Random(seed)
     amount = draw.choice([2, 5, 1000])  # of different words; with few there are many equal hashes
-    shared = draw.choices(range(amount), k=SURE)
+    shared = draw.choices(range(amount), k=GUARANTEED_MATCH)
     found = []
     for _ in range(2):
         before, after = (draw.choices(range(amount), k=draw.randrange(60)) for _ in range(2))
-        hashes = gram_hashes(_words([*before, *shared, *after]))
-        chosen = {int(hashes[at]) for at in winnowed(hashes) if len(before) <= at <= len(before) + SURE - GRAM}
+        hashes = kgram_hashes(_words([*before, *shared, *after]))
+        chosen = {
+            int(hashes[at]) for at in winnowed(hashes) if len(before) <= at <= len(before) + GUARANTEED_MATCH - GRAM
+        }
         found.append(chosen)
     assert found[0] & found[1], f"seed {seed}"
 
 
 def test_fingerprints_are_few_and_never_far_apart() -> None:
-    hashes = gram_hashes(_words(random.Random(1).choices(range(1000), k=5000)))
+    hashes = kgram_hashes(_words(random.Random(1).choices(range(1000), k=5000)))
     places = winnowed(hashes)
     assert np.diff(places).max() <= WINDOW
     assert 0.3 < len(places) / len(hashes) < 0.5  # 2 of WINDOW + 1
 
 
 def test_the_same_word_all_over_makes_few_fingerprints_and_the_rest_of_a_huge_file_is_not_read() -> None:
-    words = words_of("a " * 500_000, _PUBLIC)
+    words = tokenize("a " * 500_000, _PUBLIC)
     assert len(words) == MAX_TOKENS
     assert not is_read_whole("a " * MAX_TOKENS, _PUBLIC)
     assert not is_read_whole(";" * 3 * MAX_TOKENS, _PUBLIC)
     assert is_read_whole("a " * (MAX_TOKENS - 1), _PUBLIC)
-    hashes = gram_hashes(words)
+    hashes = kgram_hashes(words)
     assert len(set(hashes.tolist())) == 1
     assert len(winnowed(hashes)) <= len(hashes) / WINDOW + 1
 
 
 def test_too_short_a_text_has_none() -> None:
-    assert winnowed(gram_hashes(_words(list(range(GRAM - 1))))) == []
-    assert winnowed(gram_hashes(_words(list(range(GRAM))))) == [0]
+    assert winnowed(kgram_hashes(_words(list(range(GRAM - 1))))) == []
+    assert winnowed(kgram_hashes(_words(list(range(GRAM))))) == [0]
 
 
 def test_no_passage_leaves_a_file_where_both_are_called_alike() -> None:
     """A submission may have any name, that of the kit's own solution among them."""
     source = "float f(float a) { return a * a + 2 - a / 3; }\n" * 3
-    one, other = (Words(Handed("ann", {"01": source, "02": source}), ()) for _ in range(2))
+    one, other = (TokenSequence(ComparedSubmission("ann", {"01": source, "02": source}), ()) for _ in range(2))
     assert [each.length for each in passages(one, other, ())] == [len(one.files["01"])] * 2

@@ -24,7 +24,7 @@ from raysteps.cli.image import add_arguments, run
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.course.settings import PLACE, read_course
+from raysteps.course.settings import COURSE_VARIABLE, read_course
 from raysteps.exports.autograders import Member, grader_image, into_folder, prairielearn_course, students_image
 from raysteps.release.contents import NEVER
 from raysteps.release.leaks import find_leaks
@@ -127,19 +127,19 @@ def test_an_image_that_grades_has_the_whole_kit_and_the_course(
     (course / "rules").mkdir(parents=True)
     (course / "course.toml").write_text('seed = 77\nlate_policy = "rules/late.toml"\n[points]\n02 = 25\n')
     (course / "rules" / "late.toml").write_text("deadline = 2026-11-20T23:59:00+01:00\npercent_per_day = 10\n")
-    monkeypatch.setenv(PLACE, str(course / "course.toml"))
+    monkeypatch.setenv(COURSE_VARIABLE, str(course / "course.toml"))
     folder = tmp_path / "context"
     into_folder(grader_image(project), folder)
     assert (folder / "kit/solutions/06-octree/octree.cpp").is_file()
     assert (folder / "kit/grader/samples/complete").is_dir()
     assert os.access(folder / "kit/raysteps", os.X_OK)
-    monkeypatch.delenv(PLACE)
+    monkeypatch.delenv(COURSE_VARIABLE)
     told = read_course(Project(folder / "kit"))
     assert told.seed == 77
     assert told.late_policy is not None
     assert told.late_policy.is_file()
     (course / "course.toml").write_text('late_policy = "../elsewhere.toml"\n')
-    monkeypatch.setenv(PLACE, str(course / "course.toml"))
+    monkeypatch.setenv(COURSE_VARIABLE, str(course / "course.toml"))
     with pytest.raises(UsageError, match=r"course\.toml:1:1: .* beside course\.toml or below"):
         grader_image(project)
 

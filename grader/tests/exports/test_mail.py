@@ -15,7 +15,7 @@ from give_back_class import export, grade
 from raysteps.classroom.class_files import write_class
 from raysteps.classroom.database import ClassDatabase
 from raysteps.common.errors import UsageError
-from raysteps.desk.said import Said, Scribe
+from raysteps.desk.annotation_files import AnnotationDraft, AnnotationWriter
 from raysteps.exports.mail import parse_template, plain_address
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
@@ -95,11 +95,11 @@ def test_what_people_said_and_changed_is_told(tmp_path: Path) -> None:
     grade(tmp_path, roster, ann=f"// points 4\n{code}")
     graded = grade(tmp_path, roster, ann=f"// points 7\n{code}")
     with closing(ClassDatabase(graded)) as database:
-        scribe = Scribe(database, "ann")
-        scribe.write(Said("points", "Ada", text="half is right", step="01-camera-rays", points=9))
-        scribe.write(Said("points", "Ada", text="a nice picture", points=2))
-        scribe.write(Said("comment", "Ada", text="why\ntwo?", step="01-camera-rays", line=2))
-        scribe.write(Said("request", "Ada", text="Was it?", step="01-camera-rays", answer="It was."))
+        scribe = AnnotationWriter(database, "ann")
+        scribe.write(AnnotationDraft("points", "Ada", text="half is right", step="01-camera-rays", points=9))
+        scribe.write(AnnotationDraft("points", "Ada", text="a nice picture", points=2))
+        scribe.write(AnnotationDraft("comment", "Ada", text="why\ntwo?", step="01-camera-rays", line=2))
+        scribe.write(AnnotationDraft("request", "Ada", text="Was it?", step="01-camera-rays", answer="It was."))
         write_class(database, graded)
     text = _text(_written(graded)[0])
     assert "graded: 11 of 100 points.\n" in text

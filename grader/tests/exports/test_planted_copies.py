@@ -10,8 +10,8 @@ from planted_copies import Plant, changed, heavy, honest_class, medium, plants, 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import stub_for
-from raysteps.exports.similar_pairs import LOOK, Comparison, Handed, all_hashes, compare, groups
-from raysteps.exports.similarity import everybodys_code, kits_ways
+from raysteps.exports.similar_pairs import REVIEW_THRESHOLD, ComparedSubmission, Comparison, all_hashes, compare, groups
+from raysteps.exports.similarity import base_code, known_solutions
 from raysteps.release.secrets import public_names
 
 _ALL = 10_000
@@ -22,19 +22,19 @@ def public(project: Project) -> frozenset[str]:
     return frozenset(public_names(project))
 
 
-Compare = Callable[[Sequence[Handed]], Comparison]
+Compare = Callable[[Sequence[ComparedSubmission]], Comparison]
 
 
 @pytest.fixture(scope="module")
 def compared(project: Project, steps: list[Step], public: frozenset[str]) -> Compare:
     """As the command compares."""
     stubs = {step: stub_for(project, step) for step in steps}
-    kit, given = kits_ways(project, steps, "background"), all_hashes(everybodys_code(project, stubs), public)
+    kit, given = known_solutions(project, steps, "background"), all_hashes(base_code(project, stubs), public)
     return lambda handed: compare([*handed, *kit], public, given, _ALL)
 
 
 def _alike(compared: Comparison) -> set[tuple[int, int]]:
-    return {(pair.first, pair.second) for pair in compared.pairs if pair.value >= LOOK}
+    return {(pair.first, pair.second) for pair in compared.pairs if pair.value >= REVIEW_THRESHOLD}
 
 
 def test_copies_stand_above_honest_work(
@@ -47,7 +47,7 @@ def test_copies_stand_above_honest_work(
         honest = honest_class(project, steps, ["corpus", "second_corpus"], draw)
         copies = plants(honest, public, draw)
         every = [*(Plant("", one, frozenset({at})) for at, one in enumerate(honest)), *copies]
-        handed = [Handed(f"{at} {one.kind}", one.sources) for at, one in enumerate(every)]
+        handed = [ComparedSubmission(f"{at} {one.kind}", one.sources) for at, one in enumerate(every)]
         pairs = itertools.combinations(range(len(every)), 2)
         true = {(a, b) for a, b in pairs if every[a].originals & every[b].originals}
         alike = _alike(compared(handed))
@@ -64,7 +64,7 @@ def test_one_long_step_is_enough(
     draw = random.Random(21)
     honest = honest_class(project, steps, ["corpus"], draw)
     honest[0] = with_step_of(honest[0], honest[1], step, medium(public), draw)
-    found = compared([Handed(str(at), one) for at, one in enumerate(honest)])
+    found = compared([ComparedSubmission(str(at), one) for at, one in enumerate(honest)])
     assert _alike(found) == {(0, 1)}
     assert found.pairs[0].most == step
 
@@ -78,7 +78,7 @@ def test_a_file_that_moved_to_another_step_is_found_however_both_are_padded(
     honest[0] = {**honest[0], "09-bvh": moved + honest[0]["09-bvh"], "06-octree": ""}
     for one, step in ((honest[0], "09-bvh"), (honest[1], "06-octree")):
         one[step] += " ".join(draw.choices(["a", "1", "'b'", "if", "float", "+", "-", "<", "[", "?"], k=12_000))
-    found = compared([Handed(str(at), one) for at, one in enumerate(honest)])
+    found = compared([ComparedSubmission(str(at), one) for at, one in enumerate(honest)])
     assert _alike(found) == {(0, 1)}
 
 
@@ -89,7 +89,7 @@ def test_who_carries_earlier_code_along_is_like_nobody(
     honest = honest_class(project, steps, ["corpus", "second_corpus"], random.Random(5))
     for one in honest[1::2]:
         one["07-tone-mapping"] = "".join(text for step, text in sorted(one.items()) if step <= "07-tone-mapping")
-    assert _alike(compared([Handed(str(at), one) for at, one in enumerate(honest)])) == set()
+    assert _alike(compared([ComparedSubmission(str(at), one) for at, one in enumerate(honest)])) == set()
 
 
 def test_half_of_a_class_may_copy_from_one_and_is_a_group(
@@ -99,7 +99,7 @@ def test_half_of_a_class_may_copy_from_one_and_is_a_group(
     honest = honest_class(project, steps, ["corpus"], draw)
     copies = [{step: changed(text, heavy(public), draw) for step, text in honest[0].items()} for _ in honest]
     every = [*honest, *copies]
-    found = compared([Handed(str(at), one) for at, one in enumerate(every)])
+    found = compared([ComparedSubmission(str(at), one) for at, one in enumerate(every)])
     assert groups(found.pairs) == [[0, *range(len(honest), len(every))]]
 
 
@@ -108,9 +108,9 @@ def test_two_of_an_earlier_term_are_not_a_pair(
 ) -> None:
     draw = random.Random(24)
     honest = honest_class(project, steps, ["corpus"], draw)
-    old = [Handed("old", honest[0], "before"), Handed("old twin", honest[0], "before")]
-    ours = [Handed("ann", {step: changed(text, medium(public), draw) for step, text in honest[0].items()})]
-    ours += [Handed("bob", honest[1])]
+    old = [ComparedSubmission("old", honest[0], "before"), ComparedSubmission("old twin", honest[0], "before")]
+    ours = [ComparedSubmission("ann", {step: changed(text, medium(public), draw) for step, text in honest[0].items()})]
+    ours += [ComparedSubmission("bob", honest[1])]
     found = compared([*old, *ours])
     assert _alike(found) == {(0, 2), (1, 2)}
     assert {(pair.first, pair.second) for pair in found.pairs} == {(0, 2), (0, 3), (1, 2), (1, 3), (2, 3)}

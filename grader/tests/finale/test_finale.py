@@ -19,8 +19,8 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.finale import own_pictures
-from raysteps.finale.finale_page import can_be_written, in_words, poster
-from raysteps.finale.own_pictures import reach_of
+from raysteps.finale.finale_page import has_glyphs, in_words, poster
+from raysteps.finale.own_pictures import available_steps
 from raysteps.images.compare import read_png
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -62,7 +62,7 @@ def _ids(steps: tuple[Step, ...]) -> str:
 def test_it_draws_with_as_many_steps_as_are_written(
     steps: list[Step], written: str, drawn: str, last: int, tree: str
 ) -> None:
-    reach = reach_of(steps, {step.id for step in steps if step.number in written.split()})
+    reach = available_steps(steps, {step.id for step in steps if step.number in written.split()})
     assert (_ids(reach.drawn), reach.last, reach.tree) == (drawn, last, tree)
     assert {*reach.drawn, *reach.missing} == set(steps)
 
@@ -313,8 +313,8 @@ def test_a_poster_writes_what_its_letters_can(tmp_path: Path) -> None:
     plain, named = poster(picture, "Title", "", ""), poster(picture, "Title", "Ann", "")
     assert plain.shape == named.shape == (160 + 30 + 50, 360, 3)
     assert not np.array_equal(plain, named)
-    assert can_be_written("Ann Example")
-    assert not can_be_written("\uffff")
+    assert has_glyphs("Ann Example")
+    assert not has_glyphs("\uffff")
     assert np.array_equal(poster(picture, "Title", "\uffff", ""), plain), "better no name than a wrong one"
     long = poster(picture, "W" * 60, "", "")
     assert np.array_equal(long[:190, 35:325], plain[:190, 35:325])

@@ -8,7 +8,7 @@ from browser import OpenPage, assert_accessible, assert_fits_all_screens
 
 from raysteps.course.manifest import Step
 from raysteps.finale.finale_page import Finale, Station, finale_page
-from raysteps.finale.own_pictures import Counted, LargePicture
+from raysteps.finale.own_pictures import CountedPicture, LargePicture
 from raysteps.results.model import Work
 
 _SCRIPT = "<script>alert(1)</script>"
@@ -21,8 +21,8 @@ def page_file(tmp_path: Path, steps: list[Step]) -> Path:
         Station(step, None if step.index == 8 else picture, _SCRIPT if step.index > 6 else "") for step in steps
     ]
     counted = [
-        Counted("every surface", Work(100, 170_000, 0, 0, 0, 0)),
-        Counted("octree", Work(100, 950, 3960, 8, 9, 10)),
+        CountedPicture("every surface", Work(100, 170_000, 0, 0, 0, 0)),
+        CountedPicture("octree", Work(100, 950, 3960, 8, 9, 10)),
     ]
     large = LargePicture(picture, 9, Work(100, 950, 3960, 0, 0, 0), {"shadow rays": 60, "refracted rays": 0}, 1.0, 7)
     finale = Finale(_SCRIPT, _SCRIPT, "Ray traced.", large, stations, counted, "./raysteps")

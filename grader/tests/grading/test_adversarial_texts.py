@@ -21,7 +21,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.stubs import same_code, tokens, unfinished_functions
 from raysteps.grading.build_messages import compile_message, is_of_a_linker, link_message, missing_name
 from raysteps.images.compare import PictureError, parse_ppm
-from raysteps.images.render import Rendered, render
+from raysteps.images.render import RenderResult, render
 from raysteps.judge.functions import functions_of
 from raysteps.judge.protocol import ProtocolError
 from raysteps.judge.worker import answers_until_trouble
@@ -30,9 +30,9 @@ from raysteps.results.store import parse_results
 from raysteps.sandbox.task import Isolation, Limits, Task, TaskResult
 from raysteps.submission.encoding import decode
 from raysteps.submission.entries import RejectedFile
-from raysteps.submission.load import Places, load_submission
+from raysteps.submission.load import SourceLocator, load_submission
 from raysteps.toolchain.catch2 import parse_report
-from raysteps.toolchain.compile import Program, clean_log, of_somebody, parse_readable, parse_symbols
+from raysteps.toolchain.compile import Program, clean_log, is_user_symbol, parse_readable, parse_symbols
 
 pytestmark = pytest.mark.portable
 
@@ -57,7 +57,7 @@ class _Sandbox:
         return _ran(outputs=self._outputs, code=0)
 
 
-def _rendered(stats: bytes, tmp_path: Path) -> Rendered:
+def _rendered(stats: bytes, tmp_path: Path) -> RenderResult:
     outputs = {"picture": b"P6 1 1 255\nabc", "stats": stats}
     return render(_Sandbox(outputs), Program(("raytrace",)), tmp_path / "scene.nff", (), Limits())
 
@@ -103,7 +103,7 @@ def test_a_megabyte_of_a_symbol(piece: str) -> None:
     name = piece * (_MEGABYTE // len(piece)) + "!"
     parse_symbols(f"{name} T 0 4\n{name}")
     assert parse_readable(f"{name} T 0 4\n{name}\n", f"{name}\n{name} T 0 4\n")
-    of_somebody("_Z" * (_MEGABYTE // 2))
+    is_user_symbol("_Z" * (_MEGABYTE // 2))
 
 
 def test_names_stand_before_a_letter_and_two_numbers() -> None:
@@ -230,7 +230,7 @@ def test_honest_statistics(tmp_path: Path) -> None:
 
 
 def test_a_megabyte_of_a_name(steps: list[Step]) -> None:
-    places = Places(steps)
+    places = SourceLocator(steps)
     for piece in (".c", "~", ".bak", "old ", "copy", "1"):
         assert places.near(("steps", piece * (_MEGABYTE // len(piece)) + ".cpp")) is None
 

@@ -13,7 +13,7 @@ from conftest import Sources
 from watch_fakes import is_running, wait_for
 
 from raysteps.common.process import Outcome
-from raysteps.grading.step import answers_of
+from raysteps.grading.step import interruptible_map
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.monitor import descendants
 from raysteps.sandbox.task import AccountingSandbox, Task, TaskResult
@@ -99,7 +99,7 @@ def test_a_signal_that_another_thread_takes_is_heard() -> None:
         with ThreadPoolExecutor(1) as pool:
             try:
                 with pytest.raises(KeyboardInterrupt):
-                    answers_of(pool, ask, [1, 2])
+                    interruptible_map(pool, ask, [1, 2])
             finally:
                 heard.set()
     finally:

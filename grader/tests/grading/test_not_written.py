@@ -15,7 +15,7 @@ from raysteps.grading import pipeline
 from raysteps.grading.pipeline import HiddenStepGrader, grade_submission
 from raysteps.grading.scoring import still_missing
 from raysteps.grading.scoring import test_weights as weights_of
-from raysteps.judge.counterexamples import Examples, read_case
+from raysteps.judge.counterexamples import Counterexamples, read_case
 from raysteps.judge.worker import JudgedCase
 from raysteps.results.model import HiddenResult, Settings, StepResult
 from raysteps.sandbox.limits_only import LimitsOnly
@@ -156,15 +156,15 @@ def test_the_case_to_replay_is_the_one_that_is_shown(
     """Where the time for examples is over after the first asking, too."""
     step, source = _two_wrong(kit, solved)
     made: list[str] = []
-    smallest = Examples.smallest
+    smallest = Counterexamples.smallest
 
-    def spend(examples: Examples, of: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
+    def spend(examples: Counterexamples, of: Step, found: JudgedCase, place: int, seed: int) -> tuple[JudgedCase, str]:
         made.append(found.case.function)
         if len(made) > 2:
             examples.budget.left = 0.0
         return smallest(examples, of, found, place, seed)
 
-    monkeypatch.setattr(Examples, "smallest", spend)
+    monkeypatch.setattr(Counterexamples, "smallest", spend)
     result = _graded(kit.in_one_process(), step, source, tmp_path, "full")
     shown = [item for item in result.hidden if item.case]
     assert {"mirror", "diffuse"} <= {item.name for item in shown}

@@ -76,7 +76,7 @@ def test_who_runs_into_limits_is_not_waited_for(steps: list[Step], tmp_path: Pat
     assert not any("was not run" in result.message for result in results[:3])
 
     gallery = ImageGrader(kit, sandbox, limits, tmp_path)
-    gallery.stopped_in(results[:1])
+    gallery.record_stops(results[:1])
     assert gallery.limits.seconds == 2
     gallery, before = ImageGrader(kit, sandbox, limits, tmp_path), len(sandbox.seconds)
     for _ in range(4):
@@ -147,7 +147,7 @@ def test_only_the_time_of_the_step_is_told(steps: list[Step], tmp_path: Path) ->
     limits, program = limits_of(steps[0], {"seconds": 10.0}), Program(("tests",))
     results = run_tests(Hanging(), program, {f"test {number}": ["build"] for number in range(4)}, limits)
     gallery = ImageGrader(cast(BuiltKit, None), Hanging(), limits, tmp_path)
-    gallery.stopped_in(results)
+    gallery.record_stops(results)
     said = [result.message for result in results] + [
         trouble(gallery.render(program, tmp_path / "scene.nff", ()))[1] for _ in range(2)
     ]

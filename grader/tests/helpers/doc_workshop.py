@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 
 from raysteps.common.markdown import blocks
 from raysteps.course.project import Project
-from raysteps.course.tracked_files import places
+from raysteps.course.tracked_files import list_files
 from raysteps.toolchain.fingerprint import fingerprint
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -69,7 +69,7 @@ def copy_of(kit: BuiltKit, root: Path) -> Project:
     """What git knows of the kit, with right steps, as a repository. It has the programs that were built for the
     original: they are the same, unless a source of the kit is not known to git."""
     project, copy = kit.project, Project(root)
-    for place in (*map(PurePosixPath, _FILES), *places(project.root, _FOLDERS)):
+    for place in (*map(PurePosixPath, _FILES), *list_files(project.root, _FOLDERS)):
         belongs = place.parts[0] in (*_FILES, *_FOLDERS) and "__pycache__" not in place.parts
         if belongs and (project.root / place).is_file():
             (root / place).parent.mkdir(parents=True, exist_ok=True)

@@ -25,7 +25,7 @@ from raysteps.common.errors import RaystepsError
 from raysteps.course.manifest import Step, choose, read_steps
 from raysteps.course.project import Project
 from raysteps.images.compare import write_png
-from raysteps.progress.standing import remember
+from raysteps.progress.standing import save_progress
 from raysteps.results.model import HiddenResult, ImageResult, StepResult, TestResult
 
 WORKER = (sys.executable, str(Path(__file__)), "worker")
@@ -120,7 +120,7 @@ def work() -> None:
         print("it gets dark", file=sys.stderr, flush=True)
         os.kill(os.getpid(), signal.SIGKILL)
     if full:
-        remember(project, checked(step, result.status, result.points), {step.id: source.encode()})
+        save_progress(project, checked(step, result.status, result.points), {step.id: source.encode()})
     _tell(**words, complete=True)
 
 

@@ -11,17 +11,17 @@ from raysteps.images.compare import (
     TOLERANCE,
     PictureError,
     Pixels,
+    baseline_error,
+    channel_differences,
     commonest_color,
     compare,
     difference,
-    error_without_work,
-    gaps,
     is_flat,
     mean_error,
-    part_right,
-    pixels_differ,
+    partial_credit,
+    pixel_differences,
     read_ppm,
-    shown,
+    reduced_picture,
     write_png,
 )
 
@@ -103,12 +103,12 @@ def test_difference_is_brightened_and_written(tmp_path: Path) -> None:
 def test_a_grossly_wrong_picture_is_shown_coarsely() -> None:
     """What it carries: a pixel of four, five bits of each channel."""
     data = np.random.default_rng(5).integers(0, 256, (61, 80, 3), dtype=np.uint8)
-    coarse = shown(data, 255 - data, 0.51)
+    coarse = reduced_picture(data, 255 - data, 0.51)
     assert coarse.shape == data.shape
     assert (coarse[0::2][:30] == coarse[1::2]).all()
     assert (coarse[:, 0::2] == coarse[:, 1::2]).all()
     assert len(np.unique(coarse)) == 32
-    corners = pixels_differ(coarse[::2, ::2], data[::2, ::2])
+    corners = channel_differences(coarse[::2, ::2], data[::2, ::2])
     assert corners.max() <= 4  # it still looks like the picture
 
 
@@ -119,9 +119,9 @@ def test_other_pictures_are_shown_as_they_are() -> None:
     mine = reference + dice.integers(0, 3, reference.shape, dtype=np.uint8)
     mine[:20] = 255 - reference[:20]
     for wrong_share in (0.0, 0.02, 0.5):
-        picture = shown(mine, reference, wrong_share)
+        picture = reduced_picture(mine, reference, wrong_share)
         assert (picture[20:] == reference[20:]).all()
-        wrong = gaps(mine, reference) > TOLERANCE
+        wrong = pixel_differences(mine, reference) > TOLERANCE
         assert wrong[:20].mean() > 0.9
         assert (picture[wrong] == mine[wrong]).all()
 
@@ -137,13 +137,13 @@ def test_the_commonest_color_is_that_of_the_most_pixels() -> None:
 def test_a_picture_that_does_not_pass_earns_by_how_much_less_wrong_it_is() -> None:
     reference = np.zeros((20, 20, 3), dtype=np.uint8)
     reference[5:15, 5:15] = 200
-    for_nothing = error_without_work(reference)
+    for_nothing = baseline_error(reference)
     half = reference.copy()
     half[5:15, 5:10] = 0
     assert 0 < for_nothing <= mean_error(np.zeros_like(reference), reference)
-    assert part_right(half, reference, for_nothing) == pytest.approx(MAX_PARTIAL_SHARE / 2)
-    assert part_right(reference, reference, for_nothing) == MAX_PARTIAL_SHARE
-    assert part_right(np.full_like(reference, 90), reference, for_nothing) == 0, "one colour is no work"
-    assert part_right(255 - reference, reference, for_nothing) == 0
-    assert part_right(half[:10], reference, for_nothing) == 0, "another size"
-    assert part_right(half, reference, 0.0) == 0, "whatever is drawn, nobody had to work for it"
+    assert partial_credit(half, reference, for_nothing) == pytest.approx(MAX_PARTIAL_SHARE / 2)
+    assert partial_credit(reference, reference, for_nothing) == MAX_PARTIAL_SHARE
+    assert partial_credit(np.full_like(reference, 90), reference, for_nothing) == 0, "one colour is no work"
+    assert partial_credit(255 - reference, reference, for_nothing) == 0
+    assert partial_credit(half[:10], reference, for_nothing) == 0, "another size"
+    assert partial_credit(half, reference, 0.0) == 0, "whatever is drawn, nobody had to work for it"

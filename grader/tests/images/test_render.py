@@ -13,11 +13,11 @@ from raysteps.course.manifest import Step
 from raysteps.images.compare import read_ppm
 from raysteps.images.noise import Estimates, read_estimates
 from raysteps.images.render import (
-    Gate,
-    Rendered,
+    PictureCriteria,
+    RenderResult,
     exit_words,
     judge_picture,
-    part_of_its_pixels,
+    pixel_credit,
     reference_parts,
     reference_picture,
     render,
@@ -88,17 +88,17 @@ def test_estimates_are_read_where_they_are_asked_for(tmp_path: Path) -> None:
 def test_a_noisy_picture_is_judged_by_its_light(whole_kit: BuiltKit, tmp_path: Path) -> None:
     """The reference's own, drawn from other seeds, and what becomes of it when light is lost."""
     args = ("--step", "11", "--size", "40x30", "--samples", "16", "--sampler", "stratified", "--filter", "box")
-    gate = Gate(args, max_wrong=0.0, max_noise=2.0, more_samples=4)
+    gate = PictureCriteria(args, max_wrong=0.0, max_noise=2.0, more_samples=4)
     kit = whole_kit
     step = next(step for step in kit.steps if step.index == 11)
     scene = kit.project.root / step.images[0].scene
 
-    def drawn(seed: int) -> Rendered:
+    def drawn(seed: int) -> RenderResult:
         picture, estimates = tmp_path / "picture.ppm", tmp_path / "estimates"
         words = (scene, *args, "--seed", str(seed), "-o", picture, "--estimates", estimates, "--quiet")
         assert run([kit.reference("raytrace"), *words], seconds=60, cwd=tmp_path).code == 0
         ran = TaskResult(Outcome(0, False, "", "", 0.1), {}, 0.1, "")
-        return Rendered(ran, read_ppm(picture), estimates=read_estimates(estimates.read_bytes()))
+        return RenderResult(ran, read_ppm(picture), estimates=read_estimates(estimates.read_bytes()))
 
     for seed in (1, 2, 3):
         verdict = judge_picture(kit, scene, gate, drawn(seed))
@@ -117,7 +117,7 @@ def test_estimates_of_which_only_half_was_kept_are_drawn_again(whole_kit: BuiltK
     (tmp_path / "bin").symlink_to(whole_kit.folder / "bin")
     (tmp_path / "pictures").mkdir()
     kit = replace(whole_kit, folder=tmp_path)
-    gate = Gate(("--step", "11", "--size", "12x9"), max_wrong=0.0, max_noise=2.0, more_samples=4)
+    gate = PictureCriteria(("--step", "11", "--size", "12x9"), max_wrong=0.0, max_noise=2.0, more_samples=4)
     scene = kit.project.root / next(step for step in kit.steps if step.index == 11).images[0].scene
     parts = reference_parts(kit, scene, gate)
     (kept,) = tmp_path.rglob("*.estimates")
@@ -127,8 +127,8 @@ def test_estimates_of_which_only_half_was_kept_are_drawn_again(whole_kit: BuiltK
     assert kept.read_bytes() == whole
 
 
-def _part(kit: BuiltKit, step: Step, scene: Path, gate: Gate, made: Rendered) -> float:
-    return part_of_its_pixels(kit, step, scene, gate, made)
+def _part(kit: BuiltKit, step: Step, scene: Path, gate: PictureCriteria, made: RenderResult) -> float:
+    return pixel_credit(kit, step, scene, gate, made)
 
 
 def test_a_graded_scene_stands_alone(whole_kit: BuiltKit, tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from statistics import mean
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.judge.functions import Function, functions_of
-from raysteps.judge.hidden_tests import for_nothing, make_cases, reference_lines
+from raysteps.judge.hidden_tests import constant_answer_share, make_cases, reference_lines
 from raysteps.judge.plan import FunctionPlan, read_plan
 from raysteps.judge.worker import JudgedCase, reference_answers
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -36,4 +36,6 @@ def _for_nothing(kit: BuiltKit, step: Step, plan: FunctionPlan, function: Functi
     cases = [case for case in make_cases(step, plan, seed) if case.group == ordinary]
     lines = reference_lines(lambda stdin, _seconds: reference_answers(kit, stdin), cases, function.name)
     verdicts = [case.verdict(function.answer, line, line) for case, line in zip(cases, lines, strict=True)]
-    return for_nothing([JudgedCase(case, verdict, "ok") for case, verdict in zip(cases, verdicts, strict=True)])
+    return constant_answer_share(
+        [JudgedCase(case, verdict, "ok") for case, verdict in zip(cases, verdicts, strict=True)]
+    )

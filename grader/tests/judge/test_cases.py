@@ -10,7 +10,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.vectors import dot
 from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.project import Project
-from raysteps.judge.answers import Answer, off_surface
+from raysteps.judge.answers import Answer, ray_start_problem
 from raysteps.judge.hidden_tests import make_cases
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32, text, vec_of
@@ -153,9 +153,9 @@ def test_every_eye_sees_the_side_of_the_normal(project: Project, steps: list[Ste
 
 def test_a_ray_that_starts_on_its_surface_is_not_one_from_the_wrong_side() -> None:
     up, hit = (0.0, 0.0, 1.0), (0.0, 0.0, 5.0)
-    assert off_surface(hit, up, (0.0, 0.0, 5.001)) == ""
-    assert off_surface(hit, up, hit) == "the ray starts on the surface"
-    assert off_surface(hit, up, (0.0, 0.0, 4.999)) == "the ray starts on the wrong side of the surface"
+    assert ray_start_problem(hit, up, (0.0, 0.0, 5.001)) == ""
+    assert ray_start_problem(hit, up, hit) == "the ray starts on the surface"
+    assert ray_start_problem(hit, up, (0.0, 0.0, 4.999)) == "the ray starts on the wrong side of the surface"
 
 
 def test_of_an_answer_by_chance_the_reference_has_one_of_many() -> None:

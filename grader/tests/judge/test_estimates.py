@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from raysteps.judge.estimates import (
     BATCHES,
-    Estimates,
+    BatchMeans,
+    critical_value,
     estimates_problem,
     has_right_mean,
-    limit,
     plan,
     read_estimates,
     words_of_estimates,
@@ -58,7 +58,7 @@ def test_the_error_is_the_one_that_was_fixed(kind: str) -> None:
     """Farther in, where errors can be counted: at three deviations 27 in 10 000 are off."""
     batches = _batches(kind, 0.05, 4000)
     off = np.abs(batches.mean(axis=1) - 1.0) / (batches.std(axis=1, ddof=1) / BATCHES**0.5)
-    failed = sum(distance > limit(one, 3.0) for distance, one in zip(off, batches, strict=True))
+    failed = sum(distance > critical_value(one, 3.0) for distance, one in zip(off, batches, strict=True))
     assert failed <= 24
 
 
@@ -72,13 +72,13 @@ def test_no_noise_at_all_is_no_fault() -> None:
 _MEAN = (1.0, 0.5, 0.0)
 
 
-def _estimates(scale: float = 1.0, noise: float = 0.1, cost: int = 3) -> Estimates:
+def _estimates(scale: float = 1.0, noise: float = 0.1, cost: int = 3) -> BatchMeans:
     draw = np.random.default_rng(_SEED)
     batches = scale * np.array(_MEAN) * draw.normal(1.0, noise, (BATCHES, 1))
-    return Estimates(100, 100 * BATCHES * cost, batches, (1.0, 0.5, 0.0), (1.0, 0.5, 0.0))
+    return BatchMeans(100, 100 * BATCHES * cost, batches, (1.0, 0.5, 0.0), (1.0, 0.5, 0.0))
 
 
-def _problem(actual: Estimates) -> str:
+def _problem(actual: BatchMeans) -> str:
     return estimates_problem("the light", _MEAN, _estimates(), actual)
 
 
@@ -100,7 +100,7 @@ def test_a_right_answer_has_no_problem() -> None:
         (_estimates(scale=float("nan")), "NaN"),
     ],
 )
-def test_each_fault_has_its_words(actual: Estimates, said: str) -> None:
+def test_each_fault_has_its_words(actual: BatchMeans, said: str) -> None:
     assert said in _problem(actual)
 
 
@@ -113,7 +113,9 @@ def test_infinite_light_is_wrong_and_can_be_told() -> None:
 
 def test_the_same_stream_must_give_the_same() -> None:
     found = _estimates()
-    assert "the same stream" in _problem(Estimates(found.size, found.cost, found.batches, found.first, (1.0, 0.5, 0.1)))
+    assert "the same stream" in _problem(
+        BatchMeans(found.size, found.cost, found.batches, found.first, (1.0, 0.5, 0.1))
+    )
 
 
 def test_an_answer_is_read_as_it_was_written() -> None:

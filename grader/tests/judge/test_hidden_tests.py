@@ -26,7 +26,7 @@ from raysteps.judge.functions import functions_of
 from raysteps.judge.hidden_tests import make_cases, nearness, run_hidden_tests
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32
-from raysteps.judge.statistics import uneven
+from raysteps.judge.statistics import uneven_problem
 from raysteps.judge.worker import NO_END, Ask, TimeBudget, ask_worker
 from raysteps.results.model import HiddenResult
 from raysteps.sandbox.task import TaskResult
@@ -82,7 +82,7 @@ def test_the_histogram_of_uneven_samples_goes_with_the_result(
     step: Step, plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     function = functions_of("07")["to_byte"]
-    crowded = uneven("they crowd", "numbers", np.zeros(64))
+    crowded = uneven_problem("they crowd", "numbers", np.zeros(64))
     answer = replace(function.answer, problem=lambda _, right, mine: "" if right == mine else crowded)
     monkeypatch.setitem(functions_of("07"), "to_byte", replace(function, answer=answer))
     results = judge(step, plan, FakeWorker(stub))

@@ -8,7 +8,7 @@ import pytest
 from raysteps.common.errors import GraderFault
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
 from raysteps.judge.functions import Case
-from raysteps.judge.octrees import DEEPEST, MAX_ENTRIES, MAX_NODES, TREE
+from raysteps.judge.octrees import DEEPEST, MAX_ENTRIES, MAX_NODES, OCTREE
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.surfaces import Sphere, Surfaces, Triangle
 
@@ -28,7 +28,7 @@ _GOOD_HUNDRED = f"tree {_AROUND_HUNDRED} 0 2 {_HALVES[0]} {_HALVES[1]}"
 
 
 def _problem(line: str, inputs: Inputs = _TWO) -> str:
-    return Case("build_octree", "", inputs).verdict(TREE, line if inputs is not _TWO else _GOOD, line).problem
+    return Case("build_octree", "", inputs).verdict(OCTREE, line if inputs is not _TWO else _GOOD, line).problem
 
 
 def _chain(nodes: int) -> str:
@@ -101,7 +101,7 @@ def test_a_forged_chain_takes_little_memory() -> None:
     """Each of its boxes has other surfaces around it; the first ones are not too many to be read."""
     for line in (_chain(DEEPEST), _chain(20000)):
         tracemalloc.start()
-        Case("build_octree", "", _TWO).verdict(TREE, _GOOD, line)
+        Case("build_octree", "", _TWO).verdict(OCTREE, _GOOD, line)
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         assert peak < 30e6
@@ -114,9 +114,9 @@ def test_the_largest_tree_is_judged_at_once() -> None:
     halves = [box.replace("10 10 1", f"{i % 10} {i // 10} 0", 1) for i, box in enumerate(boxes)]
     line = f"{_WHOLE_HUNDRED} {MAX_NODES - 1} " + " ".join([*(halves * MAX_NODES)[: MAX_NODES - 2], boxes[0]])
     start = time.process_time()
-    TREE.parse(line)
+    OCTREE.parse(line)
     read = time.process_time()
-    verdict = Case("build_octree", "", _HUNDRED).verdict(TREE, _GOOD_HUNDRED, line)  # which reads it, too
+    verdict = Case("build_octree", "", _HUNDRED).verdict(OCTREE, _GOOD_HUNDRED, line)  # which reads it, too
     assert time.process_time() - read < 12 * (read - start), "judging a tree takes much longer than reading it"
     assert verdict.actual.startswith(f"a tree of {MAX_NODES} boxes")
 
@@ -130,7 +130,7 @@ def test_the_largest_tree_is_judged_at_once() -> None:
     ],
 )
 def test_a_tree_that_was_too_large_to_tell(excess: str, said: str) -> None:
-    verdict = Case("build_octree", "", _TWO).verdict(TREE, _GOOD, f"large {excess}")
+    verdict = Case("build_octree", "", _TWO).verdict(OCTREE, _GOOD, f"large {excess}")
     assert said in verdict.problem
     assert isinstance(verdict.problem, TooLarge)
     assert said.removesuffix(" for 2 surfaces") in verdict.actual
@@ -138,7 +138,7 @@ def test_a_tree_that_was_too_large_to_tell(excess: str, said: str) -> None:
 
 def test_many_small_surfaces_must_be_divided() -> None:
     def verdict(line: str) -> Verdict:
-        return Case("build_octree", "", _HUNDRED).verdict(TREE, _GOOD_HUNDRED, line)
+        return Case("build_octree", "", _HUNDRED).verdict(OCTREE, _GOOD_HUNDRED, line)
 
     assert verdict(_GOOD_HUNDRED).problem == ""
     whole = verdict(f"{_WHOLE_HUNDRED} 0")
@@ -153,7 +153,7 @@ def test_no_surfaces() -> None:
     inputs: Inputs = {"surfaces": Surfaces(())}
     empty = "tree inf inf inf -inf -inf -inf 0 0"
     assert _problem(empty, inputs) == ""
-    assert Case("build_octree", "", inputs).verdict(TREE, empty, f"tree {_ALL} 0 1 {_ALL} 0 0").problem != ""
+    assert Case("build_octree", "", inputs).verdict(OCTREE, empty, f"tree {_ALL} 0 1 {_ALL} 0 0").problem != ""
 
 
 def test_a_triangle_through_a_box_without_a_corner_in_it() -> None:
@@ -161,9 +161,9 @@ def test_a_triangle_through_a_box_without_a_corner_in_it() -> None:
     good = "tree -4 0 0 4 4 0 1 0 0"
     parts = ["-4 0 -1 -2 4 1", "-2 0 -1 2 4 1", "2 0 -1 4 4 1"]
     lost = f"tree -4 0 -1 4 4 1 0 3 {parts[0]} 1 0 0 {parts[1]} 0 0 {parts[2]} 1 0 0"
-    assert "no box" in Case("build_octree", "", inputs).verdict(TREE, good, lost).problem
+    assert "no box" in Case("build_octree", "", inputs).verdict(OCTREE, good, lost).problem
 
 
 def test_a_reference_that_loses_a_surface_is_the_kits_fault() -> None:
     with pytest.raises(GraderFault, match="in no box"):
-        Case("build_octree", "", _TWO).verdict(TREE, f"tree {_WEST} 1 0 0", _GOOD)
+        Case("build_octree", "", _TWO).verdict(OCTREE, f"tree {_WEST} 1 0 0", _GOOD)

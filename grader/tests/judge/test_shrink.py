@@ -23,7 +23,7 @@ from raysteps.judge.choice_sequence import (
     simpler_directions,
     simpler_reals,
 )
-from raysteps.judge.counterexamples import Examples, choices_of
+from raysteps.judge.counterexamples import Counterexamples, choices_of
 from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.hidden_tests import run_hidden_tests
@@ -31,7 +31,7 @@ from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.protocol import f32
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.shrink_passes import Change, Recipe, changes, live_choices, make
-from raysteps.judge.worker import Ask, ask_student, reference_unkept
+from raysteps.judge.worker import Ask, ask_student, uncached_reference_answers
 from raysteps.results.model import HiddenResult
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import TaskResult
@@ -151,7 +151,7 @@ def _judge_toned(
     project: Project, steps: list[Step], folder: Path, student: Ask, seed: int = _SEED
 ) -> dict[str, HiddenResult]:
     step, reference = _step(steps, "07"), FakeWorker(_right)
-    examples = Examples(student, reference, folder)
+    examples = Counterexamples(student, reference, folder)
     results = run_hidden_tests(step, _plan(project, step), student, reference, seed, examples=examples)
     return {result.name: result for result in results}
 
@@ -344,9 +344,9 @@ def test_a_planted_mistake(
     student = _build(kit, step, solved[step.id].replace(planted.old, planted.new), tmp_path / "build")
 
     def reference(cases: bytes, _seconds: float) -> TaskResult:
-        return reference_unkept(kit, cases)
+        return uncached_reference_answers(kit, cases)
 
-    examples = Examples(student, reference, tmp_path)
+    examples = Counterexamples(student, reference, tmp_path)
     results = run_hidden_tests(step, _plan(project, step), student, reference, _SEED, examples=examples)
     (wrong,) = [result for result in results if result.share < 1]
     assert wrong.name == planted.function

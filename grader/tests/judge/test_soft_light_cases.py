@@ -11,7 +11,7 @@ from raysteps.judge.counterexamples import is_same_kind
 from raysteps.judge.functions import Function, functions_of
 from raysteps.judge.protocol import Frame, Inputs, Ray, real_of, vec_of
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, Uneven
+from raysteps.judge.statistics import Numbers, UnevenProblem
 
 pytestmark = pytest.mark.portable
 
@@ -73,7 +73,7 @@ def test_where_points_crowd_is_told_alike_whatever_the_numbers() -> None:
 def test_the_histogram_of_a_disk_has_its_rings_from_the_middle_to_the_rim() -> None:
     x, y = np.random.default_rng(12).random((2, 2048))
     problem = _problem(_FUNCTIONS["unit_disk"], _inputs("unit_disk", "many points"), _disk(x, y))
-    assert isinstance(problem, Uneven)
+    assert isinstance(problem, UnevenProblem)
     counts = problem.histogram.counts
     assert sum(counts) == 2048
     assert counts[0] > 3 * 2048 / 16 > 3 * counts[-1]  # a quarter of all within a sixteenth of the area

@@ -4,9 +4,9 @@ import pytest
 
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
 from raysteps.judge.functions import Case, functions_of
-from raysteps.judge.hidden_tests import spares_nothing, take_back, unspared
+from raysteps.judge.hidden_tests import revoke_tree_points, spares_nothing, unspared
 from raysteps.judge.protocol import Inputs
-from raysteps.judge.searches import WhoseTree, work_problem
+from raysteps.judge.searches import TreeSource, work_problem
 from raysteps.judge.surfaces import Sphere, Surfaces
 from raysteps.judge.worker import JudgedCase
 from raysteps.results.model import HiddenResult, ImageResult
@@ -44,7 +44,7 @@ def test_what_spares_nothing(problems: tuple[str, ...], expected: bool) -> None:
 @pytest.mark.parametrize(("asked", "wasteful"), [(60, False), (89, False), (91, True)])
 def test_a_poor_tree_of_step_09_spares_something(asked: int, wasteful: bool) -> None:
     sphere = Sphere((0.0, 0.0, 0.0), 1.0)
-    inputs: Inputs = {"surfaces": Surfaces((sphere,) * 100), "tree": WhoseTree(own=True)}
+    inputs: Inputs = {"surfaces": Surfaces((sphere,) * 100), "tree": TreeSource(own=True)}
     problem = work_problem(inputs, [5, 5], [asked, asked])
     assert "too many surfaces" in problem
     assert isinstance(problem, TooMuchWork) is wasteful
@@ -52,7 +52,7 @@ def test_a_poor_tree_of_step_09_spares_something(asked: int, wasteful: bool) -> 
 
 def test_without_surfaces_nothing_is_to_be_spared() -> None:
     """As where a wrong case is made smaller and smaller."""
-    inputs: Inputs = {"surfaces": Surfaces(()), "tree": WhoseTree(own=True)}
+    inputs: Inputs = {"surfaces": Surfaces(()), "tree": TreeSource(own=True)}
     assert work_problem(inputs, [0, 0], [0, 0]) == ""
 
 
@@ -83,9 +83,9 @@ def _hidden(*, spares: bool) -> list[HiddenResult]:
 )
 def test_few_tests_that_nothing_spared(shares: tuple[float, ...], kept: int) -> None:
     images = _pictures(*shares)
-    take_back(images, _hidden(spares=True))
+    revoke_tree_points(images, _hidden(spares=True))
     assert [image.passed for image in images] == [share <= 0.6 for share in shares]
-    take_back(images, _hidden(spares=False))
+    revoke_tree_points(images, _hidden(spares=False))
     assert sum(image.passed for image in images) == kept
     assert all(
         "build_octree" in image.message for image in images if not image.passed and (image.share_tested or 0) < 0.6
@@ -96,5 +96,5 @@ def test_pictures_without_a_limit_keep_their_points() -> None:
     images = [ImageResult("plain", "a.nff", True, 0.01), *_pictures(0.3)]
     assert unspared(images, _hidden(spares=True)) == ""
     assert "build_octree" in unspared(images, _hidden(spares=False))
-    take_back(images, _hidden(spares=False))
+    revoke_tree_points(images, _hidden(spares=False))
     assert [image.passed for image in images] == [True, False]

@@ -15,9 +15,9 @@ from raysteps.judge.statistics import (
     are_independent,
     chi_square_tail,
     has_mean,
+    is_plausible_total,
     is_uniform,
-    may_be_so_many,
-    uneven,
+    uneven_problem,
 )
 
 _SEED = 20
@@ -47,23 +47,23 @@ def test_a_tail_far_out_is_as_small_as_it_is() -> None:
 
 def test_a_histogram_shows_what_came_beside_what_should() -> None:
     low = np.concatenate([np.full(300, 0.01), np.full(100, 0.99)])
-    even = uneven("too low", "numbers", low).histogram
+    even = uneven_problem("too low", "numbers", low).histogram
     assert (even.counts[0], even.counts[-1], sum(even.counts)) == (300, 100, 400)
     assert even.expected == [25.0] * 16
-    beside = uneven("too low", "numbers", low, np.repeat([0.01, 0.99], 1000)).histogram
+    beside = uneven_problem("too low", "numbers", low, np.repeat([0.01, 0.99], 1000)).histogram
     assert (beside.expected[0], beside.expected[7], beside.expected[-1]) == (200.0, 0.0, 200.0)
 
 
 def test_many_events_of_unequal_chance_are_told_from_too_many() -> None:
     draw = np.random.default_rng(_SEED)
     shares = draw.random(1000) * 0.02
-    assert all(may_be_so_many(int((draw.random(1000) < shares).sum()), shares, 0) for _ in range(500))
-    assert may_be_so_many(24, shares, 0)  # ten are expected
-    assert not may_be_so_many(48, shares, 0)
-    assert may_be_so_many(48, shares, 20)
-    assert may_be_so_many(990, 1 - shares, 0)
-    assert not may_be_so_many(952, 1 - shares, 0)
-    assert may_be_so_many(0, np.zeros(0), 0)
+    assert all(is_plausible_total(int((draw.random(1000) < shares).sum()), shares, 0) for _ in range(500))
+    assert is_plausible_total(24, shares, 0)  # ten are expected
+    assert not is_plausible_total(48, shares, 0)
+    assert is_plausible_total(48, shares, 20)
+    assert is_plausible_total(990, 1 - shares, 0)
+    assert not is_plausible_total(952, 1 - shares, 0)
+    assert is_plausible_total(0, np.zeros(0), 0)
 
 
 def test_even_numbers_pass_and_uneven_ones_do_not() -> None:

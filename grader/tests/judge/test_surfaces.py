@@ -5,7 +5,7 @@ import math
 import pytest
 
 from raysteps.judge.protocol import Ray
-from raysteps.judge.surfaces import Scripted, Sphere, Surface, Triangle, distance_to, first_distance
+from raysteps.judge.surfaces import ScriptedSurface, Sphere, Surface, Triangle, distance_to, first_distance
 
 pytestmark = pytest.mark.portable
 
@@ -25,8 +25,8 @@ _DOWN = (0.0, 0.0, -1.0)
         (_SHEET, Ray((0.9, 0.9, 5.0), _DOWN), math.inf),
         (_SHEET, Ray((0.0, 0.0, -5.0), _DOWN), math.inf),
         (_SHEET, Ray((0.0, 0.0, 5.0), (1.0, 0.0, 0.0)), math.inf),
-        (Scripted(2.5), Ray((0.0, 0.0, 5.0), _DOWN), 2.5),
-        (Scripted(None), Ray((0.0, 0.0, 5.0), _DOWN), math.inf),
+        (ScriptedSurface(2.5), Ray((0.0, 0.0, 5.0), _DOWN), 2.5),
+        (ScriptedSurface(None), Ray((0.0, 0.0, 5.0), _DOWN), math.inf),
     ],
 )
 def test_distances(surface: Surface, ray: Ray, distance: float) -> None:

@@ -15,8 +15,8 @@ from tools.calibration.calibrate import calibration_page, complaints, mark, page
 from tools.calibration.measure import (
     KIT,
     CalibratedPicture,
-    Gate,
     LimitedPicture,
+    LimitMargin,
     PictureShares,
     Share,
     View,
@@ -66,13 +66,13 @@ def test_a_margin_under_two_is_a_complaint() -> None:
     near = gate_between({"a": 0.004}, {"mild": [0.007]}, _PIXELS, 0.0053)
     assert not near.is_clear
     assert "change the scene" in complaints([CalibratedPicture(limited, near)], check=False)[0]
-    stale = Gate(Share(0.001, "a"), Share(0.1, "mild"), (), 0.01, 0.05)
+    stale = LimitMargin(Share(0.001, "a"), Share(0.1, "mild"), (), 0.01, 0.05)
     assert complaints([CalibratedPicture(limited, stale)], check=False) == []
     assert "max_wrong is 0.05, measured 0.01" in complaints([CalibratedPicture(limited, stale)], check=True)[0]
     fresh = replace(stale, written=0.012)
     assert complaints([CalibratedPicture(limited, fresh)], check=True) == []
     assert (stale.stands, fresh.stands) == (0.01, 0.012)
-    narrow = Gate(Share(0.008, "a"), Share(0.018, "mild"), (), 0.012, 0.008)
+    narrow = LimitMargin(Share(0.008, "a"), Share(0.018, "mild"), (), 0.012, 0.008)
     assert not narrow.is_written, "near enough, and yet a correct solution would not pass"
     page = calibration_page([CalibratedPicture(limited, stale)], [], ["no FMA here"])
     assert "| 02-intersection | balls-twin | 0.1 % (a) | 10 % (mild) | 100 | 0.01 |  |" in page

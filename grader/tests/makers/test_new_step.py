@@ -14,7 +14,7 @@ from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import kit_steps, read_all_steps, read_steps
 from raysteps.course.mutants import read_mutants, reference_source
 from raysteps.course.project import Project
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.course.stubs import outdated_stubs
 from raysteps.exports.autograders import kit_files
 from tools import dev as maintenance
@@ -186,7 +186,7 @@ def test_a_new_step_is_graded_and_shown_and_no_other_file_is_edited(
     _change(Project(root), "20-fog", "points = 12", "part = 2\npoints = 12")
     assert "20-fog belongs to part 2" in _raysteps(root, "check", "20").stderr
     (tmp_path / "course.toml").write_text("parts = [1, 2]\n")
-    monkeypatch.setenv(PLACE, str(tmp_path / "course.toml"))
+    monkeypatch.setenv(COURSE_VARIABLE, str(tmp_path / "course.toml"))
 
     complete, partial = (root / "grader/samples" / name for name in ("complete", "partial"))
     outcome = _raysteps(root, "grade", complete, "--out", tmp_path / "right", "--only", "6", "20", "--jobs", "2")

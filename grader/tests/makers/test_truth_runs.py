@@ -10,7 +10,7 @@ import pytest
 
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Output, Task
-from tools.direct_grading import Remembered, sandbox_of_the_kit
+from tools.direct_grading import CachingSandbox, sandbox_of_the_kit
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="its programs are scripts of a shell")
 
@@ -28,11 +28,11 @@ def _task(folder: Path, text: str = 'cat "$1" - > "$2"; echo said; echo wrong >&
 
 
 @pytest.fixture
-def remembered(tmp_path: Path) -> Remembered:
+def remembered(tmp_path: Path) -> CachingSandbox:
     return sandbox_of_the_kit(tmp_path / "kept", "this machine")
 
 
-def test_an_answer_is_what_a_sandbox_would_have_given(tmp_path: Path, remembered: Remembered) -> None:
+def test_an_answer_is_what_a_sandbox_would_have_given(tmp_path: Path, remembered: CachingSandbox) -> None:
     right = LimitsOnly().run(_task(tmp_path))
     for _ in range(2):
         ran = remembered.run(_task(tmp_path))
@@ -42,7 +42,7 @@ def test_an_answer_is_what_a_sandbox_would_have_given(tmp_path: Path, remembered
     assert (remembered.asked, remembered.ran) == (2, 1)
 
 
-def test_another_byte_anywhere_is_another_question(tmp_path: Path, remembered: Remembered) -> None:
+def test_another_byte_anywhere_is_another_question(tmp_path: Path, remembered: CachingSandbox) -> None:
     task = _task(tmp_path)
     others = [
         replace(task, stdin=b"three"),
@@ -61,7 +61,7 @@ def test_another_byte_anywhere_is_another_question(tmp_path: Path, remembered: R
     assert elsewhere.ran == 1
 
 
-def test_a_folder_is_what_is_in_it(tmp_path: Path, remembered: Remembered) -> None:
+def test_a_folder_is_what_is_in_it(tmp_path: Path, remembered: CachingSandbox) -> None:
     folder = tmp_path / "folder"
     folder.mkdir()
     task = Task(("/bin/ls", Input(folder)))
@@ -72,7 +72,7 @@ def test_a_folder_is_what_is_in_it(tmp_path: Path, remembered: Remembered) -> No
         assert remembered.ran == count
 
 
-def test_what_a_limit_stopped_is_run_again(tmp_path: Path, remembered: Remembered) -> None:
+def test_what_a_limit_stopped_is_run_again(tmp_path: Path, remembered: CachingSandbox) -> None:
     task = replace(_task(tmp_path, "echo begun; sleep 60"), limits=Limits(wall_seconds=0.5, cpu_seconds=0.05))
     for count in (1, 2):
         ran = remembered.run(task)
@@ -80,14 +80,14 @@ def test_what_a_limit_stopped_is_run_again(tmp_path: Path, remembered: Remembere
         assert remembered.ran == count
 
 
-def test_what_took_longer_than_it_may_now_is_run_again(tmp_path: Path, remembered: Remembered) -> None:
+def test_what_took_longer_than_it_may_now_is_run_again(tmp_path: Path, remembered: CachingSandbox) -> None:
     task = _task(tmp_path, "sleep 1")
     remembered.run(task)
     remembered.run(replace(task, limits=replace(task.limits, wall_seconds=0.3)))
     assert remembered.ran == 2
 
 
-def test_half_an_answer_is_none(tmp_path: Path, remembered: Remembered) -> None:
+def test_half_an_answer_is_none(tmp_path: Path, remembered: CachingSandbox) -> None:
     remembered.run(_task(tmp_path))
     for count, path in enumerate(list((tmp_path / "kept").glob("??/*")), start=2):
         path.write_bytes(path.read_bytes()[:10])
@@ -97,7 +97,7 @@ def test_half_an_answer_is_none(tmp_path: Path, remembered: Remembered) -> None:
     assert remembered.ran == 3
 
 
-def test_the_same_answer_to_two_questions_lies_there_once(tmp_path: Path, remembered: Remembered) -> None:
+def test_the_same_answer_to_two_questions_lies_there_once(tmp_path: Path, remembered: CachingSandbox) -> None:
     task = _task(tmp_path, 'echo made > "$2"')
     others = [task, replace(task, stdin=b"three"), replace(task, command=(*task.command, "more"))]
     assert {remembered.run(one).outputs["made"] for one in others} == {b"made\n"}
@@ -105,7 +105,7 @@ def test_the_same_answer_to_two_questions_lies_there_once(tmp_path: Path, rememb
     assert len(list((tmp_path / "kept").glob("??/*"))) == len(others) + 1
 
 
-def test_what_nobody_asked_for_is_forgotten(tmp_path: Path, remembered: Remembered) -> None:
+def test_what_nobody_asked_for_is_forgotten(tmp_path: Path, remembered: CachingSandbox) -> None:
     remembered.run(_task(tmp_path))
     for path in (tmp_path / "kept").glob("??/*"):
         os.utime(path, (1, 1))
@@ -119,12 +119,12 @@ def test_what_nobody_asked_for_is_forgotten(tmp_path: Path, remembered: Remember
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the keeper is between")
-def test_a_signal_is_told(tmp_path: Path, remembered: Remembered) -> None:
+def test_a_signal_is_told(tmp_path: Path, remembered: CachingSandbox) -> None:
     assert remembered.run(_task(tmp_path, "kill -SEGV $$")).outcome.code == -signal.SIGSEGV
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the keeper is between")
-def test_memory_has_its_limit(tmp_path: Path, remembered: Remembered) -> None:
+def test_memory_has_its_limit(tmp_path: Path, remembered: CachingSandbox) -> None:
     program = "x = bytearray(1 << 33)"
     task = Task((sys.executable, "-c", program), Limits(memory_mb=64, processes=1), tools=True)
     ran = remembered.run(task)

@@ -16,9 +16,9 @@ from raysteps.cli.convert import as_scene, run
 from raysteps.common.errors import UsageError
 from raysteps.common.process import run as run_program
 from raysteps.course.project import Project
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.images.compare import read_ppm
-from raysteps.models.mesh_file import Part, read_model
+from raysteps.models.mesh_file import MeshPart, read_model
 from raysteps.models.scene_around import write_nff, write_pbrt
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -72,7 +72,7 @@ def _glb(path: Path, **material: object) -> Path:
     return path
 
 
-def _parts(path: Path, *, z_up: bool = False) -> dict[str, Part]:
+def _parts(path: Path, *, z_up: bool = False) -> dict[str, MeshPart]:
     parts, missing = read_model(path, z_up=z_up)
     assert missing == []
     return {part.name: part for part in parts}
@@ -336,7 +336,7 @@ def test_other_commands_take_a_model_in_place_of_a_scene(
 ) -> None:
     course = obj.with_name("course.toml")
     course.write_text(f"parts = {parts}\n", encoding="utf-8")
-    monkeypatch.setenv(PLACE, str(course))
+    monkeypatch.setenv(COURSE_VARIABLE, str(course))
     found = Path(as_scene(project, str(obj)))
     assert found.is_relative_to(project.build / "models")
     assert found.suffix == ending, "part one has no textures"

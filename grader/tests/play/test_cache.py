@@ -10,7 +10,7 @@ from raysteps.course.project import Project
 from raysteps.play import web_kit
 from raysteps.play.packages import clear, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
-from raysteps.play.web_kit import Source, Wanted, WebKit, looked_for
+from raysteps.play.web_kit import ObjectRequest, Source, WebKit, dependencies_of
 
 pytestmark = pytest.mark.portable
 
@@ -152,7 +152,7 @@ def test_what_is_compiled_anew_has_read_what_changed(tmp_path: Path) -> None:
         """What was compiled, and the objects."""
         kit = WebKit(project, clang)
         clang.compiled.clear()
-        objects = [kit._made(Wanted(Source(f"framework/{name}"))) for name in ("a.cpp", "b.cpp")]
+        objects = [kit._made(ObjectRequest(Source(f"framework/{name}"))) for name in ("a.cpp", "b.cpp")]
         clear(tmp_path / "cache", kit.used)
         return [name.removeprefix("/kit/framework/") for name in clang.compiled], [one.read_text() for one in objects]
 
@@ -185,7 +185,7 @@ def test_what_a_compiler_has_looked_for(tmp_path: Path) -> None:
         path.parent.mkdir(parents=True)
         path.write_text(text)
     first, second = "/parts/a.hpp /kit/framework/core/ray.hpp", "/kit/steps/02-x/../01-y/y.hpp /usr/include/cmath"
-    assert looked_for(tmp_path, f"made: {first} \\\n  {second} \\\n /work/b\n") == [
+    assert dependencies_of(tmp_path, f"made: {first} \\\n  {second} \\\n /work/b\n") == [
         "a/b.hpp",
         "framework/a/b.hpp",
         "framework/absent/a/b.hpp",

@@ -10,7 +10,7 @@ from play_pages import drag, middle, save, says, with_packages
 
 from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
-from raysteps.course.settings import PLACE
+from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.course.stubs import without_markers
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer
@@ -40,7 +40,7 @@ def server(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Iterat
     course = tmp_path_factory.mktemp("course") / "course.toml"
     course.write_text("parts = [1, 2]\n", encoding="utf-8")
     with pytest.MonkeyPatch.context() as patch, with_packages():
-        patch.setenv(PLACE, str(course))
+        patch.setenv(COURSE_VARIABLE, str(course))
         found = PlayServer(PlayPage(project, registry_of(None)).make())
     yield found
     found.close()

@@ -13,7 +13,7 @@ from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step, kit_steps
 from raysteps.course.project import Project
 from raysteps.play.packages import registry_of
-from raysteps.release.leaks import strange
+from raysteps.release.leaks import unexpected_content
 from tools.website import command
 from tools.website.live_figures import check_live, in_one_script, make_live_figures
 
@@ -112,7 +112,7 @@ def test_each_handout_has_its_figures(handout: Callable[[str], Path], project: P
 @pytest.mark.slow
 def test_a_release_may_not_hold_their_program(handout: Callable[[str], Path]) -> None:
     program = handout("01").parents[2] / "_static" / "live-program.js"
-    assert "something compiled" in (strange(program.read_bytes()) or "")
+    assert "something compiled" in (unexpected_content(program.read_bytes()) or "")
 
 
 @pytest.mark.slow

@@ -8,10 +8,10 @@ from play_pages import with_packages
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.images.compare import gaps, parse_ppm
+from raysteps.images.compare import parse_ppm, pixel_differences
 from raysteps.play.packages import CLANG, fetch, registry_of
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
-from raysteps.play.web_kit import Wanted, WebKit
+from raysteps.play.web_kit import ObjectRequest, WebKit
 from raysteps.release.build_release import first_steps, write_release
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
@@ -131,7 +131,7 @@ def test_pictures_are_those_of_the_machine(clang: WebClang, project: Project, ki
         subprocess.run(words, check=True)
         native = (tmp_path / "native.ppm").read_bytes()
         same += made == native
-        assert (gaps(parse_ppm(made), parse_ppm(native)) > 0).mean() < 0.0015, (scene, args)
+        assert (pixel_differences(parse_ppm(made), parse_ppm(native)) > 0).mean() < 0.0015, (scene, args)
     assert same >= len(cases) * 0.7
 
 
@@ -153,7 +153,7 @@ def test_the_sites_program_takes_neither_tests_nor_other_programs(
 ) -> None:
     compile_one, made, said = WebKit._made, list[str](), list[str]()
 
-    def listed(kit: WebKit, wanted: Wanted) -> Path:
+    def listed(kit: WebKit, wanted: ObjectRequest) -> Path:
         made.append(wanted.source.path)
         return compile_one(kit, wanted)
 

@@ -10,7 +10,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import outdated_stubs, write_stubs
-from raysteps.progress.reset import loss, reset
+from raysteps.progress.reset import lost_lines, reset
 
 
 @pytest.fixture
@@ -78,7 +78,7 @@ def test_a_stub_stays_and_a_missing_file_comes_back(course: Project, steps: list
     assert reset(course, steps[0], console, yes=False) == 0
     assert "is the stub already" in text(console)
     (course.steps / steps[0].path).unlink()
-    assert loss(course, steps[0]) is None
+    assert lost_lines(course, steps[0]) is None
     assert reset(course, steps[0], console, yes=False) == 0
     assert (course.steps / steps[0].path).read_text() == _stub(course, steps[0])
     assert _kept(course) == []

@@ -9,7 +9,7 @@ from raysteps.cli import app as cli
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project, here
 from raysteps.progress.hints import print_hint
-from raysteps.progress.standing import list_steps, next_of, next_step, recall, remember, standings
+from raysteps.progress.standing import list_steps, load_progress, next_of, next_step, save_progress, standings
 
 _CODE = "int answer() { return 42; }\n"
 
@@ -21,7 +21,7 @@ def course(tmp_path: Path) -> Project:
 
 def _check(course: Project, step: Step, status: str, points: float, source: str = _CODE) -> None:
     write_own(course, step, source)
-    remember(course, checked(step, status, points), {step.id: source.encode()})
+    save_progress(course, checked(step, status, points), {step.id: source.encode()})
 
 
 def _words(course: Project) -> list[str]:
@@ -182,15 +182,15 @@ def test_what_is_only_closed_is_not_to_be_reset(course: Project, steps: list[Ste
 def test_a_damaged_memory_is_none(course: Project, steps: list[Step], damage: str) -> None:
     _check(course, steps[0], "passed", 10)
     (course.build / "progress.json").write_text(damage)
-    assert recall(course) == {}
+    assert load_progress(course) == {}
     assert _words(course)[0] == "not checked yet"
     _check(course, steps[0], "passed", 10)
     assert _words(course)[0] == "passed"
 
 
 def test_a_step_that_was_not_handed_in_is_not_remembered(course: Project, steps: list[Step]) -> None:
-    remember(course, checked(steps[0], "not-started", 0), {})
-    assert recall(course) == {}
+    save_progress(course, checked(steps[0], "not-started", 0), {})
+    assert load_progress(course) == {}
 
 
 def test_from_the_command_line(

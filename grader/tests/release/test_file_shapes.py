@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from raysteps.release.leaks import find_leaks, strange
+from raysteps.release.leaks import find_leaks, unexpected_content
 from raysteps.release.secrets import NgramIndex, Secrets
 
 pytestmark = pytest.mark.portable
@@ -35,7 +35,7 @@ _PNG = _picture()
     ],
 )  # fmt: skip
 def test_something_compiled(data: bytes) -> None:
-    assert "compiled" in (strange(data) or "")
+    assert "compiled" in (unexpected_content(data) or "")
 
 
 @pytest.mark.parametrize(
@@ -47,12 +47,12 @@ def test_something_compiled(data: bytes) -> None:
     ],
 )  # fmt: skip
 def test_something_packed_or_unknown(data: bytes) -> None:
-    assert "neither UTF-8 text nor a PNG" in (strange(data) or "")
+    assert "neither UTF-8 text nor a PNG" in (unexpected_content(data) or "")
 
 
 @pytest.mark.parametrize("data", [b"", _TEXT, "Möller\r\n".encode(), _PNG])
 def test_text_and_pictures_are_no_leak(data: bytes) -> None:
-    assert strange(data) is None
+    assert unexpected_content(data) is None
 
 
 def _with_chunk(kind: bytes, body: bytes) -> bytes:
@@ -73,7 +73,7 @@ def _with_chunk(kind: bytes, body: bytes) -> bytes:
     ],
 )
 def test_a_picture_that_holds_something_else(data: bytes) -> None:
-    assert "more than a picture" in (strange(data) or "")
+    assert "more than a picture" in (unexpected_content(data) or "")
 
 
 def test_a_place_that_tells_what_it_is(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from raysteps.cli import release as command
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
-from raysteps.course.tracked_files import places
+from raysteps.course.tracked_files import list_files
 from raysteps.release import build_release as making
 from raysteps.release.contents import kit_contents
 from raysteps.release.leaks import find_leaks
@@ -25,7 +25,7 @@ _SEED = 918273
 @pytest.fixture
 def copy(project: Project, tmp_path: Path) -> Project:
     """The files of the kit, without its history."""
-    for place in places(project.root):
+    for place in list_files(project.root):
         if (project.root / place).is_file():
             target = tmp_path / "copy" / place
             target.parent.mkdir(parents=True, exist_ok=True)

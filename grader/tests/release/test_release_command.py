@@ -19,7 +19,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.release.build_release import usable
+from raysteps.release.build_release import refuse_foreign_files
 
 
 def test_the_folders_that_documents_name_can_be_written(project: Project) -> None:
@@ -30,7 +30,7 @@ def test_the_folders_that_documents_name_can_be_written(project: Project) -> Non
     assert len(outs) >= 3
     for out in outs:
         refuse_inside(project, (project.root / out).resolve())
-        usable((project.root / out).resolve())
+        refuse_foreign_files((project.root / out).resolve())
 
 
 def test_a_release_among_the_files_of_the_kit_is_refused(tmp_path: Path) -> None:

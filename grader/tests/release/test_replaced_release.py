@@ -13,7 +13,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.release import build_release as making
 from raysteps.release import build_release as replacing
-from raysteps.release.build_release import Leaks, PageOptions, release, usable
+from raysteps.release.build_release import Leaks, PageOptions, refuse_foreign_files, release
 from raysteps.release.leaks import leaks_in_history
 from raysteps.release.secrets import gather
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -121,7 +121,7 @@ def test_what_setting_up_leaves_does_not_stand_in_the_way(older: Path, kit: Buil
     assert not (older / "scenes" / "__pycache__").exists()
     (older / "scenes" / "egg-information").write_bytes(b"mine")
     with pytest.raises(UsageError, match="egg-information: is not of the release"):
-        usable(older)
+        refuse_foreign_files(older)
 
 
 def test_a_history_that_tells_is_not_taken_over(
@@ -207,4 +207,4 @@ def test_a_link_in_a_files_place_is_not_as_it_was_released(older: Path) -> None:
     (older / "LICENSE").unlink()
     (older / "LICENSE").symlink_to(older / "nowhere")
     with pytest.raises(UsageError, match="LICENSE: is not as it was released"):
-        usable(older)
+        refuse_foreign_files(older)

@@ -13,7 +13,7 @@ import pytest
 from raysteps.common.errors import UsageError
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step
-from raysteps.release.build_release import first_steps, release, usable, write_release
+from raysteps.release.build_release import first_steps, refuse_foreign_files, release, write_release
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")
@@ -103,11 +103,11 @@ def test_a_step_that_is_left_out_in_between_is_refused(kit: BuiltKit, steps: lis
 def test_nothing_but_a_release_is_replaced(released: Path, tmp_path: Path) -> None:
     (tmp_path / "thesis.txt").write_text("mine")
     with pytest.raises(UsageError, match="is not empty"):
-        usable(tmp_path)
-    usable(released)
+        refuse_foreign_files(tmp_path)
+    refuse_foreign_files(released)
     (released / "syllabus.md").write_text("mine")
     with pytest.raises(UsageError, match=r"syllabus\.md: is not of the release"):
-        usable(released)
+        refuse_foreign_files(released)
     (released / "syllabus.md").unlink()
 
 

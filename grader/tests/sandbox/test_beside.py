@@ -16,7 +16,7 @@ from raysteps.course.project import here
 from raysteps.sandbox import beside, supervised
 from raysteps.sandbox.keepers import start_keeper
 from raysteps.sandbox.lockdown import landlock_version, syscall_filter
-from raysteps.sandbox.task import Beside, Input, Limits, Output, Sandbox, StartedProcess, Task, TaskResult, Word
+from raysteps.sandbox.task import Input, Limits, Output, Sandbox, StartedProcess, Task, TaskResult, TrustedCommand, Word
 from raysteps.sandbox.users import can_lend_users
 
 __all__ = ["any_sandbox", "hostile", "sandbox", "secret"]  # pytest finds fixtures by name
@@ -30,7 +30,7 @@ _LIMITS = Limits(wall_seconds=30.0, cpu_seconds=30.0)
 
 def _ask(sandbox: Sandbox, program: Path, *words: Word, stdin: bytes = b"") -> TaskResult:
     """Runs the program that misbehaves in the place of the trusted one."""
-    return sandbox.run(Task(_BOX, _LIMITS, tools=True, beside=Beside((Input(program), *words), stdin)))
+    return sandbox.run(Task(_BOX, _LIMITS, tools=True, beside=TrustedCommand((Input(program), *words), stdin)))
 
 
 def _said(sandbox: Sandbox, program: Path, *words: Word) -> list[str]:
@@ -75,7 +75,7 @@ def test_an_end_of_the_wire_is_told_of_whoever_sees_it(
     any_sandbox: Sandbox, hostile: Path, code: int, said: str
 ) -> None:
     box = ("/usr/bin/env", "sh", "-c", f"exit {code}")
-    ran = any_sandbox.run(Task(box, _LIMITS, tools=True, beside=Beside((Input(hostile), "code", "70"))))
+    ran = any_sandbox.run(Task(box, _LIMITS, tools=True, beside=TrustedCommand((Input(hostile), "code", "70"))))
     assert (ran.outcome.code, ran.outcome.stderr) == (1, said)
     assert _ask(any_sandbox, hostile, "code", str(code)).outcome.stderr == said
 
@@ -106,7 +106,7 @@ def test_it_uses_time_that_is_counted(any_sandbox: Sandbox, hostile: Path) -> No
 
 def test_its_time_on_the_clock_is_bounded(any_sandbox: Sandbox, hostile: Path) -> None:
     limits = Limits(wall_seconds=1.0, cpu_seconds=1.0)
-    ran = any_sandbox.run(Task(_BOX, limits, tools=True, beside=Beside((Input(hostile), "stubborn"))))
+    ran = any_sandbox.run(Task(_BOX, limits, tools=True, beside=TrustedCommand((Input(hostile), "stubborn"))))
     assert ran.hung
 
 

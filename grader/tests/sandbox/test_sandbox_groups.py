@@ -6,7 +6,7 @@ import pytest
 
 from raysteps.common.errors import GraderFault
 from raysteps.sandbox import cgroups
-from raysteps.sandbox.cgroups import Group, Parents, find_parents
+from raysteps.sandbox.cgroups import Cgroup, Parents, find_parents
 from raysteps.sandbox.monitor import Usage
 from raysteps.sandbox.task import Limits
 
@@ -21,7 +21,7 @@ def _content(path: Path) -> str:
 
 
 def test_limits_of_version_2(parents: Parents, tmp_path: Path) -> None:
-    group = Group(parents, "one", Limits(memory_mb=3, processes=7))
+    group = Cgroup(parents, "one", Limits(memory_mb=3, processes=7))
     assert group.folders == [tmp_path / "one"]
     assert _content(tmp_path / "one" / "memory.max") == str(3 << 20)
     assert _content(tmp_path / "one" / "pids.max") == "8"
@@ -30,7 +30,7 @@ def test_limits_of_version_2(parents: Parents, tmp_path: Path) -> None:
 
 
 def test_usage_of_version_2(parents: Parents, tmp_path: Path) -> None:
-    group = Group(parents, "one", Limits())
+    group = Cgroup(parents, "one", Limits())
     (tmp_path / "one" / "cpu.stat").write_text("usage_usec 1500000\nuser_usec 9\n", encoding="ascii")
     (tmp_path / "one" / "memory.events").write_text("low 0\noom 3\noom_kill 0\n", encoding="ascii")
     assert group.usage() == Usage(cpu_seconds=1.5, out_of_memory=False)
@@ -40,7 +40,7 @@ def test_usage_of_version_2(parents: Parents, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("unified", [False, True])
 def test_a_victim_of_others_is_no_glutton(tmp_path: Path, *, unified: bool) -> None:
-    group = Group(Parents(tmp_path, tmp_path, tmp_path, unified=unified), "one", Limits(memory_mb=400))
+    group = Cgroup(Parents(tmp_path, tmp_path, tmp_path, unified=unified), "one", Limits(memory_mb=400))
     folder = tmp_path / "one"
     events, peak = ("memory.events", "memory.peak") if unified else ("memory.oom_control", "memory.max_usage_in_bytes")
     (folder / events).write_text("oom_kill 0\n", encoding="ascii")
@@ -54,7 +54,7 @@ def test_a_victim_of_others_is_no_glutton(tmp_path: Path, *, unified: bool) -> N
 
 
 def test_an_older_kernel_tells_only_that_the_limit_was_met(parents: Parents, tmp_path: Path) -> None:
-    group = Group(parents, "one", Limits())
+    group = Cgroup(parents, "one", Limits())
     (tmp_path / "one" / "memory.events").write_text("max 5\noom 1\noom_kill 1\n", encoding="ascii")
     group.require_memory_of_the_machine()
     (tmp_path / "one" / "memory.events").write_text("max 0\noom 0\noom_kill 1\n", encoding="ascii")

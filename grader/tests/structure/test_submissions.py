@@ -8,7 +8,7 @@ from raysteps.cli.demo import complain_about
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
 from raysteps.course.manifest import Step
-from raysteps.grading.step import clear
+from raysteps.grading.step import clear_old_results
 from raysteps.results.model import Results, StepResult
 
 
@@ -18,7 +18,7 @@ def test_only_old_results_are_deleted(tmp_path: Path, steps: list[Step]) -> None
     for name in [*old, *others, "results.json"]:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("x")
-    clear(tmp_path, steps, steps)
+    clear_old_results(tmp_path, steps, steps)
     left = sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file())
     assert left == sorted(others)
     assert not (tmp_path / "pictures" / steps[0].id).exists()
@@ -28,7 +28,7 @@ def test_folders_that_become_empty_go(tmp_path: Path, steps: list[Step]) -> None
     folder = tmp_path / "pictures" / steps[0].id
     folder.mkdir(parents=True)
     (folder / "a-mine.png").touch()
-    clear(tmp_path, steps, steps)
+    clear_old_results(tmp_path, steps, steps)
     assert not list(tmp_path.iterdir())
 
 
@@ -39,7 +39,7 @@ def test_links_are_not_followed(tmp_path: Path, steps: list[Step]) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / "pictures").symlink_to(outside.parent)
-    clear(out, steps, steps)
+    clear_old_results(out, steps, steps)
     assert (outside / "a-mine.png").exists()
 
 

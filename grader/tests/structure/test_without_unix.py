@@ -81,8 +81,8 @@ print(taken.sources, taken.notes)
 
 def test_a_lock_is_held_by_one(tmp_path: Path) -> None:
     told = as_on_windows(f"""
-from raysteps.common.files import one_at_a_time, try_lock
-with one_at_a_time(pathlib.Path({str(tmp_path / "lock")!r})), open({str(tmp_path / "lock")!r}, "a") as file:
+from raysteps.common.files import file_lock, try_lock
+with file_lock(pathlib.Path({str(tmp_path / "lock")!r})), open({str(tmp_path / "lock")!r}, "a") as file:
     print(try_lock(file.fileno()))
 """)
     assert told == "False"

@@ -14,7 +14,7 @@ from typing import Literal
 
 import pytest
 
-from raysteps.classroom.entries import Entry, load_entry
+from raysteps.classroom.entries import ClassEntry, load_entry
 from raysteps.common.errors import UsageError
 from raysteps.common.process import run
 from raysteps.course.manifest import Step
@@ -293,7 +293,7 @@ def test_an_archive_without_a_step_is_named(tmp_path: Path, steps: list[Step]) -
 def test_where_a_class_lies_is_not_told(tmp_path: Path, steps: list[Step]) -> None:
     (tmp_path / "secret" / "anna").mkdir(parents=True)
     (tmp_path / "secret" / "anna" / "homework.zip").write_bytes(b"PK\3\4 but no more")
-    notes = load_entry("anna", Entry(tmp_path / "secret" / "anna", "anna"), steps).submission.notes
+    notes = load_entry("anna", ClassEntry(tmp_path / "secret" / "anna", "anna"), steps).submission.notes
     assert all("homework.zip: cannot be read" in note and "secret" not in note for note in notes.values())
 
 

@@ -8,7 +8,7 @@ from machine_code import reference_code
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import without_markers
-from raysteps.images.render import Rendered, reference_picture, reference_work, render
+from raysteps.images.render import RenderResult, reference_picture, reference_work, render
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Task
 from raysteps.toolchain.compile import Program, StudentBuild
@@ -60,7 +60,9 @@ def _program(kit: BuiltKit, step: Step, binaries: Binaries, folder: Path, *, tog
     return program
 
 
-def _last_case(step: Step, project: Project, kit: BuiltKit, program: Program) -> tuple[Path, tuple[str, ...], Rendered]:
+def _last_case(
+    step: Step, project: Project, kit: BuiltKit, program: Program
+) -> tuple[Path, tuple[str, ...], RenderResult]:
     case = step.images[-1]
     at = case.args.index("--size") + 1
     scene, args = project.root / case.scene, (*case.args[:at], "61x47", *case.args[at + 1 :])

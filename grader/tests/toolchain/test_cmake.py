@@ -10,7 +10,7 @@ import pytest
 
 from raysteps.course.project import Project
 from raysteps.toolchain import kit_artifacts
-from raysteps.toolchain.cmake import BuildTree, _HowFar, release_tree
+from raysteps.toolchain.cmake import BuildTree, _BuildProgress, release_tree
 from tools.selftest.programs import use_caches
 
 
@@ -146,7 +146,7 @@ def test_compiled_headers_are_not_those_before_a_comment_was_changed(tmp_path: P
 def test_a_build_says_how_far_it_is(pieces: list[bytes], expected: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     said: list[str] = []
     monkeypatch.setattr(kit_artifacts, "_EVERY", -1.0)
-    how_far = _HowFar(said.append)
+    how_far = _BuildProgress(said.append)
     for piece in pieces:
         how_far.heard(piece)
     assert said == expected
@@ -155,7 +155,7 @@ def test_a_build_says_how_far_it_is(pieces: list[bytes], expected: list[str], mo
 def test_a_build_does_not_say_it_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
     said: list[str] = []
     monkeypatch.setattr(kit_artifacts, "_EVERY", 3600.0)
-    how_far = _HowFar(said.append)
+    how_far = _BuildProgress(said.append)
     for done in range(140):
         how_far.heard(f"[{done}/140] Building\n".encode())
     assert not said

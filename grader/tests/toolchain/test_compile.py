@@ -11,7 +11,7 @@ from raysteps.common.process import Outcome
 from raysteps.grading.build_messages import why_not_built
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import TaskResult
-from raysteps.toolchain.compile import Compiled, StudentBuild, of_no_library
+from raysteps.toolchain.compile import Compiled, StudentBuild, unresolved_names
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 pytestmark = pytest.mark.skipif(is_windows(), reason="stands in for the compiler by a shell script")
@@ -43,4 +43,4 @@ def test_what_a_linker_finds_nowhere_is_a_students_whatever_its_name() -> None:
     """But for what sanitizers have in the program itself."""
     names = ["c_helper", "__helper", "_Z6helperv", "__asan_report_load4", "__ubsan_handle_out_of_bounds_abort"]
     said = "".join(f"ld: step.o: undefined reference to `{name}'\n" for name in names)
-    assert of_no_library(TaskResult(Outcome(0, False, "", said, 0.1), {}, 0.1, "")) == set(names[:3])
+    assert unresolved_names(TaskResult(Outcome(0, False, "", said, 0.1), {}, 0.1, "")) == set(names[:3])

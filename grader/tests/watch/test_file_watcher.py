@@ -13,7 +13,7 @@ from watch_fakes import wait_for
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.watch.events import ChangeNoticed, Event, FileSaved, FileVanished
+from raysteps.watch.events import Event, FileSaved, FileVanished, WatchNotice
 from raysteps.watch.file_watcher import FileWatcher, kind_of, why_poll
 
 _OWN = "camera_rays.cpp"
@@ -166,7 +166,7 @@ def test_where_no_events_come_it_begins_to_poll(
     save(found.path, "int unheard;")
     assert found.next() == FileSaved(_OWN)
     told = found.next()
-    assert isinstance(told, ChangeNoticed)
+    assert isinstance(told, WatchNotice)
     assert "from now on files are polled" in told.text
     wait_for(lambda: modes == [False, True])
     save(course.root / "framework" / "core" / "ray.hpp", "int unheard;")  # polling may miss it as well
@@ -189,7 +189,7 @@ def test_where_events_cannot_be_had_it_begins_to_poll(
     found = Watched(course, steps[0], poll=False)
     found.saves.start()
     told = found.next()
-    assert isinstance(told, ChangeNoticed)
+    assert isinstance(told, WatchNotice)
     assert "OS file watch limit reached" in told.text
     time.sleep(0.7)
     save(found.path, "int seen;")

@@ -16,19 +16,21 @@ _ASK_SECONDS = 60
 
 
 @dataclass(frozen=True)
-class Need:
+class Requirement:
     """Something that is missing, and the package that has it, by the program that installs packages."""
 
     what: str
     packages: dict[str, str]
 
 
-COMPILER = Need("a C++20 compiler", {"apt-get": "g++", "brew": "gcc", "dnf": "gcc-c++", "pacman": "gcc", "winget": ""})
-CMAKE = Need(
+COMPILER = Requirement(
+    "a C++20 compiler", {"apt-get": "g++", "brew": "gcc", "dnf": "gcc-c++", "pacman": "gcc", "winget": ""}
+)
+CMAKE = Requirement(
     "CMake 3.22 or newer",
     {"apt-get": "cmake", "brew": "cmake", "dnf": "cmake", "pacman": "cmake", "winget": "Kitware.CMake"},
 )
-NINJA = Need(
+NINJA = Requirement(
     "Ninja",
     {
         "apt-get": "ninja-build",
@@ -38,20 +40,20 @@ NINJA = Need(
         "winget": "Ninja-build.Ninja",
     },
 )
-VENV = Need("Python's venv", {"apt-get": "python3-venv"})
+VENV = Requirement("Python's venv", {"apt-get": "python3-venv"})
 # Asked for only where apt-get can bring them; elsewhere CMake fetches them itself.
 LIBRARIES = (
-    Need("GLM", {"apt-get": "libglm-dev"}),
-    Need("Catch2", {"apt-get": "catch2"}),
-    Need("stb_image_write", {"apt-get": "libstb-dev"}),
+    Requirement("GLM", {"apt-get": "libglm-dev"}),
+    Requirement("Catch2", {"apt-get": "catch2"}),
+    Requirement("stb_image_write", {"apt-get": "libstb-dev"}),
 )
 # Grading other people's work needs a sandbox; one's own work does not, so nobody is stopped for want of it.
-SANDBOX = Need("bubblewrap", {"apt-get": "bubblewrap"})
+SANDBOX = Requirement("bubblewrap", {"apt-get": "bubblewrap"})
 # For --accel wide; everything else works without it.
-HIGHWAY = Need("Highway", {"apt-get": "libhwy-dev"})
+HIGHWAY = Requirement("Highway", {"apt-get": "libhwy-dev"})
 
 
-def said_by(words: Sequence[str]) -> str:
+def output_of(words: Sequence[str]) -> str:
     """What a program prints; nothing when it cannot be started or fails."""
     try:
         done = subprocess.run(
@@ -73,20 +75,20 @@ def cmake_is_new_enough(said: str) -> bool:
     return found is not None and (int(found[1]), int(found[2])) >= _OLDEST_CMAKE
 
 
-def is_installed(need: Need) -> bool:
+def is_installed(need: Requirement) -> bool:
     """Whether a Debian package is there."""
     package = need.packages["apt-get"]
-    return said_by(["dpkg-query", "-W", "-f", "${Status}", package]).endswith("ok installed")
+    return output_of(["dpkg-query", "-W", "-f", "${Status}", package]).endswith("ok installed")
 
 
 def has_venv() -> bool:
-    return bool(said_by([sys.executable, "-c", "import venv, ensurepip; print('yes')"]))
+    return bool(output_of([sys.executable, "-c", "import venv, ensurepip; print('yes')"]))
 
 
-def missing() -> list[Need]:
+def missing() -> list[Requirement]:
     """All that must be there."""
     needs = [] if has_compiler() else [COMPILER]
-    if not cmake_is_new_enough(said_by(["cmake", "--version"])):
+    if not cmake_is_new_enough(output_of(["cmake", "--version"])):
         needs.append(CMAKE)
     if shutil.which("ninja") is None:
         needs.append(NINJA)
@@ -113,14 +115,14 @@ The first is MinGW (g++), a small download. The second is Microsoft's (cl): type
 "x64 Native Tools Command Prompt for VS 2022" then."""
 
 
-def _for_windows(needs: Sequence[Need]) -> str:
+def _for_windows(needs: Sequence[Requirement]) -> str:
     lines = [f"  winget install {need.packages['winget']}" for need in needs if need.packages.get("winget")]
     if COMPILER in needs:
         lines.append(_WINDOWS_COMPILER)
     return "\n".join(["install it with:", *lines, "Then open a new terminal, so that it is found, and try again."])
 
 
-def advice(needs: Sequence[Need]) -> str:
+def advice(needs: Sequence[Requirement]) -> str:
     """The lines for this system."""
     if sys.platform == "win32":
         return _for_windows(needs)
@@ -147,7 +149,7 @@ def _as_root() -> list[str] | None:
     return ["sudo", "-n"] if asked.returncode == 0 else None
 
 
-def install(needs: Sequence[Need]) -> bool:
+def install(needs: Sequence[Requirement]) -> bool:
     """Whether apt-get brought them."""
     before = None if shutil.which("apt-get") is None else _as_root()
     if before is None:
@@ -171,7 +173,7 @@ def install(needs: Sequence[Need]) -> bool:
     return True
 
 
-def get_what_is_needed() -> None:
+def install_required() -> None:
     """Raises CannotSetUp with the lines to type where it cannot be had without asking."""
     needs = missing()
     if needs and install(needs):
@@ -180,7 +182,7 @@ def get_what_is_needed() -> None:
         raise CannotSetUp(f"this is missing: {', '.join(need.what for need in needs)}\n{advice(needs)}")
 
 
-def get_what_is_useful() -> None:
+def install_optional() -> None:
     """Says what the kit does without where it cannot be had."""
     if not (sys.platform == "linux" and shutil.which("apt-get")):
         return

@@ -9,11 +9,11 @@ _USAGE = 2
 
 
 def _set_up(venv: Venv, wanted: str) -> None:
-    from raysteps.bootstrap.requirements import get_what_is_needed, get_what_is_useful  # rarely: they take long to load
+    from raysteps.bootstrap.requirements import install_optional, install_required  # rarely: they take long to load
 
-    get_what_is_needed()
+    install_required()
     if venv.is_whole:  # a students' kit grades nobody and has no wide trees
-        get_what_is_useful()
+        install_optional()
     venv.make(wanted)
 
 

@@ -63,7 +63,7 @@ def steps_of(graded: Sequence[GradedStep]) -> list[Step]:
 OTHER_FORM = "graded by a kit of another form; grade it again"
 
 
-class Standings:
+class CurrentResults:
     """Of the submissions of a class, after its last runs: one, or one for each shard. What is the same for all of
     them, such as roster and late policy, is read once."""
 
@@ -193,7 +193,7 @@ class _Report:
     def __init__(self, database: ClassDatabase, known: Mapping[str, GradedSubmission]) -> None:
         self._known = known
         self._query = database.connection.execute
-        self._standings = Standings(database)
+        self._standings = CurrentResults(database)
         self._last = self._standings.last
 
     def _run(self, row: sqlite3.Row) -> ClassRun:
@@ -274,7 +274,7 @@ def class_document(
     return checked(_Report(database, known).document(), "class.json")
 
 
-def still_true(database: ClassDatabase, path: Path, run: int) -> dict[str, GradedSubmission]:
+def submissions_if_current(database: ClassDatabase, path: Path, run: int) -> dict[str, GradedSubmission]:
     """Of a class.json that the last run and what was said until then are in: the submissions, by name. Nothing where
     it is older, or of a run that was broken off."""
     try:

@@ -27,7 +27,7 @@ from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
 from raysteps.results.class_model import ClassResults, GradedSubmission, Student
 from raysteps.results.model import Feedback, Results
-from raysteps.results.store import FOLDER as CASES
+from raysteps.results.store import CASES_FOLDER as CASES
 from raysteps.results.store import stored_results
 
 # CSV that a spreadsheet shows and never runs.

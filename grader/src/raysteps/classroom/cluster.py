@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from raysteps.classroom.jobs import SAME_KIT, Answer, Job, ProgressCallback, from_line, make_grader, to_line
+from raysteps.classroom.jobs import SAME_KIT, Job, JobResult, ProgressCallback, from_line, make_grader, to_line
 from raysteps.classroom.local_pool import Slot
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import count
@@ -33,7 +33,7 @@ def run_job(line: bytes) -> bytes:
         _busy[slot] = job.run
     keep = False
     try:
-        answer: Answer = slot.grade(job)
+        answer: JobResult = slot.grade(job)
         keep = True
         return to_line(answer)
     finally:
@@ -150,16 +150,16 @@ class Cluster:
         key = f"raysteps-{self._run}-{job.submission.name}-{attempt}"
         self._jobs[self._client.submit(run_job, to_line(job), key=key, pure=False)] = (job, attempt)
 
-    def _fault(self, job: Job, text: str) -> Answer:
-        return Answer(job.submission.name, "fault", fault=text, worker=self._address)
+    def _fault(self, job: Job, text: str) -> JobResult:
+        return JobResult(job.submission.name, "fault", fault=text, worker=self._address)
 
-    def _answer(self, future: Any) -> Answer | None:
+    def _answer(self, future: Any) -> JobResult | None:
         """None when there is none yet, or it has to be graded again."""
         import distributed
 
         job, attempt = self._jobs[future]
         try:
-            answer = from_line(future.result(timeout=_LOOK_SECONDS), Answer)
+            answer = from_line(future.result(timeout=_LOOK_SECONDS), JobResult)
             if answer.name != job.submission.name:
                 answer = self._fault(job, f"the answer was that for {answer.name}")
         except (TimeoutError, distributed.TimeoutError):
@@ -179,7 +179,7 @@ class Cluster:
         del self._jobs[future]
         return answer
 
-    def answers(self, jobs: Iterator[Job]) -> Iterator[Answer]:
+    def answers(self, jobs: Iterator[Job]) -> Iterator[JobResult]:
         """Not all jobs are handed over at once: a class need not fit into the scheduler's memory."""
         import distributed
 

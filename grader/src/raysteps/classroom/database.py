@@ -12,7 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
-from raysteps.classroom.jobs import Answer
+from raysteps.classroom.jobs import JobResult
 from raysteps.common.documents import plain
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.platform import quote_command
@@ -208,7 +208,7 @@ _DAMAGED = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 _NO_ROOM = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR)
 
 
-def _way_back(path: Path) -> str:
+def _recovery_advice(path: Path) -> str:
     recover = quote_command(["sqlite3", str(path), ".recover"])
     return (
         f"nothing was graded anew. Put back a copy of it, or what `{recover}` saves of it; to grade the "
@@ -217,7 +217,7 @@ def _way_back(path: Path) -> str:
 
 
 @contextmanager
-def telling_of(path: Path, doing: str) -> Iterator[None]:
+def explained_sqlite_errors(path: Path, doing: str) -> Iterator[None]:
     """What SQLite finds wrong with a file, in words that say what to do."""
     try:
         yield
@@ -225,7 +225,7 @@ def telling_of(path: Path, doing: str) -> Iterator[None]:
         kind = (getattr(error, "sqlite_errorcode", None) or 0) & 0xFF  # without what extends it
         if kind in _NO_ROOM:
             raise GraderFault(f"{path}: cannot be written: {error}; make room, then go on with --resume") from error
-        advice = f"; it is damaged, and {_way_back(path)}" if kind in _DAMAGED else ""
+        advice = f"; it is damaged, and {_recovery_advice(path)}" if kind in _DAMAGED else ""
         raise UsageError(f"{path}: cannot be {doing} as the database of a class: {error}{advice}") from error
 
 
@@ -242,7 +242,9 @@ def _refuse_emptied(connection: sqlite3.Connection, path: Path) -> None:
     if connection.execute("SELECT 1 FROM runs LIMIT 1").fetchone() is None:
         for name in ("class.json", "submissions"):
             if (path.parent / name).exists():
-                raise UsageError(f"{path}: is empty, but {name} beside it holds results of a class; {_way_back(path)}")
+                raise UsageError(
+                    f"{path}: is empty, but {name} beside it holds results of a class; {_recovery_advice(path)}"
+                )
 
 
 def _prepare(connection: sqlite3.Connection) -> None:
@@ -254,7 +256,7 @@ def _prepare(connection: sqlite3.Connection) -> None:
 def open_database(path: Path, *, check: bool = True) -> sqlite3.Connection:
     """Opens the database of a class, and makes it when there is none. `check` reads all of it, to find damage."""
     was_there = path.exists()
-    with telling_of(path, "opened"):
+    with explained_sqlite_errors(path, "opened"):
         # Whoever shares a connection among threads sees to it that one at a time uses it.
         connection = sqlite3.connect(path, isolation_level=None, timeout=30, check_same_thread=False)
         try:
@@ -311,7 +313,7 @@ Scope = Literal["here", "elsewhere", "gone"]  # "elsewhere": it belongs to anoth
 
 
 @dataclass(frozen=True)
-class Registered:
+class RegisteredEntry:
     """An entry of the folder as the database keeps it."""
 
     entry: str
@@ -323,7 +325,7 @@ class Registered:
 
 
 @dataclass(frozen=True)
-class Registration:
+class StudentEntries:
     """A student, and the entries that are this student's."""
 
     id: str
@@ -392,8 +394,8 @@ class ClassDatabase:
     def begin_run(
         self,
         facts: RunFacts,
-        entries: Iterable[Registered],
-        students: Iterable[Registration],
+        entries: Iterable[RegisteredEntry],
+        students: Iterable[StudentEntries],
         left_out: Collection[str] = (),
     ) -> int:
         """Registers who and what is there now, and gives the number of the new run. `left_out` are the names of those
@@ -426,7 +428,7 @@ class ClassDatabase:
             self._mark_left_out(left_out)
         return int(number)
 
-    def _register(self, entry: Registered, *, with_time: bool) -> None:
+    def _register(self, entry: RegisteredEntry, *, with_time: bool) -> None:
         row = dict(vars(entry))
         insert(self.connection, "submissions", row, "ON CONFLICT (entry) DO NOTHING")
         self.connection.execute("UPDATE submissions SET scope = :scope, note = :note WHERE entry = :entry", row)
@@ -465,7 +467,7 @@ class ClassDatabase:
                         (kept["submitted_at"], kept["submitted_from"], kept["submission"]),
                     )
 
-    def _enrol(self, student: Registration) -> None:
+    def _enrol(self, student: StudentEntries) -> None:
         row = {"id": student.id, "name": student.name, "email": student.email, "note": student.note}
         insert(self.connection, "students", row, "ON CONFLICT (id, name, email) DO NOTHING")
         for entry in student.entries:
@@ -509,7 +511,7 @@ class ClassDatabase:
     def record(
         self,
         run: int,
-        answer: Answer,
+        answer: JobResult,
         key: str,
         *,
         unreadable: bool = False,
@@ -613,7 +615,7 @@ def open_readonly(path: Path) -> Iterator[sqlite3.Connection]:
     except sqlite3.Error as error:
         raise UsageError(f"{path}: cannot be opened: {error}") from error
     with closing(connection):
-        with telling_of(path, "read"):
+        with explained_sqlite_errors(path, "read"):
             _prepare(connection)
             connection.execute("BEGIN")
             version = version_of(connection, path)

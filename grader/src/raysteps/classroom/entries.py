@@ -26,7 +26,7 @@ _NO_SUBMISSIONS = {"__MACOSX", "Thumbs.db", "desktop.ini"}
 
 
 @dataclass(frozen=True)
-class Entry:
+class ClassEntry:
     """One entry; its label is its name as text that can be printed and stored."""
 
     path: Path
@@ -42,7 +42,7 @@ class NoSubmission(UsageError):
 class Listing:
     """What a folder holds."""
 
-    entries: list[Entry]
+    entries: list[ClassEntry]
     ignored: list[str]
 
 
@@ -77,7 +77,7 @@ def _label(path: Path, known: set[str]) -> str:
     return label if label.strip() and label not in known else f"{label} {mark}".strip()
 
 
-def _told_apart(entries: Sequence[Entry], folder: Path) -> list[Entry]:
+def _told_apart(entries: Sequence[ClassEntry], folder: Path) -> list[ClassEntry]:
     """Two entries must not be one submission: a link says so that shares files with another entry. One that leads out
     of the folder is an entry as any other."""
     root = Path(os.path.realpath(folder))
@@ -101,7 +101,7 @@ def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
         paths = sorted(folder.iterdir(), key=lambda path: os.fsencode(path.name))
     except OSError as error:
         raise UsageError(f"{folder}: expected a folder with one entry per submission: {reason(error)}") from error
-    entries: list[Entry] = []
+    entries: list[ClassEntry] = []
     ignored: list[str] = []
     known: set[str] = set()
     left_out = {os.path.realpath(path) for path in leave_out}
@@ -111,7 +111,7 @@ def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
         if path.name.startswith(".") or path.name in _NO_SUBMISSIONS or os.path.realpath(path) in left_out:
             ignored.append(label)
         else:
-            entries.append(Entry(path, label))
+            entries.append(ClassEntry(path, label))
     if not entries:
         raise NoSubmission(f"{folder}: holds no submission; expected one folder, zip or tar per submission")
     return Listing(_told_apart(entries, folder), ignored)
@@ -175,7 +175,7 @@ NOTHING_TAKEN = "Nothing was taken from this submission: it "  # before why
 ANOTHERS = "is a link to the files of another entry of the class, and no submission counts twice"
 
 
-def load_entry(name: str, entry: Entry, steps: list[Step]) -> LoadedEntry:
+def load_entry(name: str, entry: ClassEntry, steps: list[Step]) -> LoadedEntry:
     """What the student packed badly is the student's; what this machine cannot read is a GraderFault."""
     path = entry.path
     try:

@@ -41,7 +41,7 @@ _FILE = r"^(pictures(/[A-Za-z0-9_-][A-Za-z0-9._-]*){1,3}\.png|cases/[a-z0-9-]+\.
 
 
 @dataclass(frozen=True)
-class Answer:
+class JobResult:
     """What became of a job. A fault has no results."""
 
     name: Text
@@ -59,12 +59,12 @@ class Answer:
             raise ValueError("results without a fault, or a fault without results, expected")
 
 
-def to_line(message: Job | Answer) -> bytes:
+def to_line(message: Job | JobResult) -> bytes:
     """As it is sent."""
     return json.dumps(plain(message)).encode() + b"\n"
 
 
-Message = TypeVar("Message", Job, Answer)
+Message = TypeVar("Message", Job, JobResult)
 
 
 def from_line(line: bytes, kind: type[Message]) -> Message:
@@ -72,7 +72,7 @@ def from_line(line: bytes, kind: type[Message]) -> Message:
     try:
         return convert(json.loads(line), kind, complete=True)
     except Malformed as error:
-        raise GraderFault(f"this is no {kind.__name__.lower()}: {error}") from error
+        raise GraderFault(f"this is no {kind.__name__}: {error}") from error
 
 
 # What grades one submission; the class does not know how that is done.

@@ -13,7 +13,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.classroom.class_document import OTHER_FORM, read_class_document
-from raysteps.classroom.database import FILE, LATEST, open_readonly, telling_of
+from raysteps.classroom.database import FILE, LATEST, explained_sqlite_errors, open_readonly
 from raysteps.common.documents import Amount, Count, Text, checked
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, name_order, printable, size
@@ -51,7 +51,7 @@ def _without(name: str, status: str | None) -> LeaderboardEntry:
 def _of_database(path: Path) -> list[LeaderboardEntry]:
     """Results of the kit that graded then: what this one cannot read is nobody's fault."""
     entered = []
-    with open_readonly(path) as connection, telling_of(path, "read"):
+    with open_readonly(path) as connection, explained_sqlite_errors(path, "read"):
         for row in connection.execute(_QUERY):
             results = stored_results(row["document"]) if row["status"] == "graded" else None
             entered.append(
@@ -112,7 +112,7 @@ def read_entries(places: Sequence[Path]) -> list[LeaderboardEntry]:
 
 
 @dataclass(frozen=True)
-class Ranked:
+class RankedSubmission:
     """A submission in its place; who is alike in work and memory shares it."""
 
     rank: int
@@ -121,7 +121,7 @@ class Ranked:
 
 
 @dataclass(frozen=True)
-class NotRanked:
+class UnrankedSubmission:
     """A submission without a place."""
 
     name: str
@@ -133,8 +133,8 @@ class Board:
     """One step."""
 
     step: Step
-    ranked: Sequence[Ranked]
-    not_ranked: Sequence[NotRanked]
+    ranked: Sequence[RankedSubmission]
+    not_ranked: Sequence[UnrankedSubmission]
     kits: Sequence[str]  # that graded those in a place
 
     @property
@@ -155,22 +155,22 @@ def _standing(work_ratio: WorkRatio) -> tuple[float, int]:
     return work_ratio.relative, work_ratio.bytes
 
 
-def _in_place(work_ratios: Sequence[tuple[str, WorkRatio]]) -> list[Ranked]:
+def _in_place(work_ratios: Sequence[tuple[str, WorkRatio]]) -> list[RankedSubmission]:
     """Names come last: among equals their order must tell nothing, should they be hidden."""
     ordered = sorted(work_ratios, key=lambda one: (*_standing(one[1]), *one[1].pictures.values(), name_order(one[0])))
     places = [_standing(work_ratio) for _, work_ratio in ordered]
-    return [Ranked(places.index(_standing(work_ratio)) + 1, name, work_ratio) for name, work_ratio in ordered]
+    return [RankedSubmission(places.index(_standing(work_ratio)) + 1, name, work_ratio) for name, work_ratio in ordered]
 
 
 def rank(entered: Sequence[LeaderboardEntry], step: Step) -> Board:
     """Least work first, then least memory. The same results give the same board, in whatever order they come."""
     work_ratios: list[tuple[str, WorkRatio]] = []
-    others: list[NotRanked] = []
+    others: list[UnrankedSubmission] = []
     kits: set[str] = set()
     for one in entered:
         work_ratio = _work_ratio(one, step)
         if isinstance(work_ratio, NoWorkRatio):
-            others.append(NotRanked(one.name, work_ratio.reason))
+            others.append(UnrankedSubmission(one.name, work_ratio.reason))
             continue
         work_ratios.append((one.name, work_ratio))
         kits |= {one.results.kit} if one.results is not None else set()

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from raysteps.classroom.jobs import Answer, Job, from_line, gave_up, to_line
-from raysteps.classroom.process_tree import end_tree
+from raysteps.classroom.jobs import Job, JobResult, from_line, gave_up, to_line
+from raysteps.classroom.process_tree import kill_process_tree
 from raysteps.common.errors import GraderFault
 from raysteps.toolchain.limits import give_up_after
 
@@ -23,7 +23,7 @@ class WorkerDied(Exception):
     """The process is gone, and with it the answer."""
 
 
-class Overtime(Exception):
+class JobTimeout(Exception):
     """The process was ended because it took too long."""
 
 
@@ -51,9 +51,9 @@ class GradingProcess:
 
     def _end_overtime(self) -> None:
         self._overtime = True
-        end_tree(self._process.pid)
+        kill_process_tree(self._process.pid)
 
-    def ask(self, job: Job) -> Answer:
+    def ask(self, job: Job) -> JobResult:
         """Waits for the answer; WorkerDied or Overtime when there will be none. Programs have limits of their own: the
         one here is for a grader that hangs itself."""
         most_seconds = give_up_after(job.settings.limits)
@@ -71,9 +71,9 @@ class GradingProcess:
             timer.cancel()
         if not line.endswith(b"\n"):
             if self._overtime:
-                raise Overtime(gave_up(most_seconds))
+                raise JobTimeout(gave_up(most_seconds))
             raise WorkerDied(self._why())
-        return from_line(line, Answer)
+        return from_line(line, JobResult)
 
     def _why(self) -> str:
         code = self._process.wait()
@@ -86,7 +86,7 @@ class GradingProcess:
     def stop(self) -> None:
         """Ends it with all that it runs; safe to call from another thread, and again."""
         if self._process.poll() is None:
-            end_tree(self._process.pid)
+            kill_process_tree(self._process.pid)
 
     def clean_up(self) -> None:
         """After the end, or as the end; only when nobody asks."""
@@ -130,15 +130,15 @@ class Slot:
         if process is not None:
             process.clean_up()
 
-    def grade(self, job: Job) -> Answer:
+    def grade(self, job: Job) -> JobResult:
         """A death may have a passing cause, such as memory, so there is a second attempt; then it is a fault."""
         deaths: list[str] = []
         for _ in range(_ATTEMPTS):
             try:
                 return self._running().ask(job)
-            except Overtime as overtime:
+            except JobTimeout as overtime:
                 self._drop()
-                return Answer(job.submission.name, "fault", fault=str(overtime))
+                return JobResult(job.submission.name, "fault", fault=str(overtime))
             except WorkerDied as death:
                 self._drop()
                 deaths.append(str(death))
@@ -149,7 +149,7 @@ class Slot:
                 if self._stopped:
                     raise JobStopped
         text = "the process that graded this submission died twice"
-        return Answer(job.submission.name, "fault", fault=f"{text}: {deaths[-1]}", details="\n".join(deaths))
+        return JobResult(job.submission.name, "fault", fault=f"{text}: {deaths[-1]}", details="\n".join(deaths))
 
     @property
     def stopped(self) -> bool:
@@ -180,7 +180,7 @@ class LocalPool:
     def __init__(self, size: int) -> None:
         self._slots = [Slot() for _ in range(size)]
         self._jobs: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
-        self._answers: queue.SimpleQueue[Answer | BaseException] = queue.SimpleQueue()
+        self._answers: queue.SimpleQueue[JobResult | BaseException] = queue.SimpleQueue()
         self._threads: list[threading.Thread] = []
 
     def _serve(self, slot: Slot) -> None:
@@ -198,7 +198,7 @@ class LocalPool:
             thread.start()
             self._threads.append(thread)
 
-    def answers(self, jobs: Iterator[Job]) -> Iterator[Answer]:
+    def answers(self, jobs: Iterator[Job]) -> Iterator[JobResult]:
         """Takes jobs as they are needed, and gives answers as they come."""
         waiting = 0
         left = True

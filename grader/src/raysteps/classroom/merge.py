@@ -19,7 +19,7 @@ def rows_of(source: sqlite3.Connection, query: str, *values: Any) -> list[dict[s
     return [dict(row) for row in source.execute(query, values)]
 
 
-class Part:
+class ShardDatabase:
     """The database of a shard."""
 
     def __init__(self, folder: Path, connection: sqlite3.Connection) -> None:
@@ -54,7 +54,7 @@ class Part:
         }
 
 
-def disagreements(parts: list[Part]) -> list[str]:
+def disagreements(parts: list[ShardDatabase]) -> list[str]:
     """What the last runs of the shards do not have in common; the parts come in the order in which these began."""
     facts = [part.facts() for part in parts]
     last = parts[-1].folder
@@ -106,7 +106,7 @@ class _Merge:
     def _id(self, entry: str) -> int:
         return int(self._target.execute("SELECT id FROM submissions WHERE entry = ?", (entry,)).fetchone()["id"])
 
-    def submissions(self, part: Part) -> dict[int, int]:
+    def submissions(self, part: ShardDatabase) -> dict[int, int]:
         """Gives the target's ids by those of the part. Of an entry's files the shard that graded it knows the time."""
         for row in part.submissions:
             entry = row["entry"]
@@ -124,7 +124,7 @@ class _Merge:
                 )
         return {row["id"]: self._id(row["entry"]) for row in part.submissions}
 
-    def register(self, part: Part) -> None:
+    def register(self, part: ShardDatabase) -> None:
         """Each shard knows the whole class. Who is in it, and who handed in what, is as the last one found it."""
         for row in part.submissions:
             self._target.execute(
@@ -211,7 +211,7 @@ def merge(folders: list[Path], target: ClassDatabase) -> tuple[list[str], list[s
     """Runs are put into the order in which they began. Returns the shards that are missing, and warnings."""
     _check(folders, target)
     with ExitStack() as stack:
-        parts = [Part(folder, stack.enter_context(open_readonly(folder / FILE))) for folder in folders]
+        parts = [ShardDatabase(folder, stack.enter_context(open_readonly(folder / FILE))) for folder in folders]
         parts = sorted((part for part in parts if part.runs), key=lambda part: part.began)
         if not parts:
             raise UsageError("nothing has been graded in any of these folders")

@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import Literal
 
 from raysteps.classroom.annotations import annotated, last_said
-from raysteps.classroom.class_document import Standings, steps_of
+from raysteps.classroom.class_document import CurrentResults, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS, write_submission
 from raysteps.classroom.database import ClassDatabase, insert, stamp, transaction
-from raysteps.classroom.entries import Entry, folded, load_entry
-from raysteps.classroom.jobs import Answer
+from raysteps.classroom.entries import ClassEntry, folded, load_entry
+from raysteps.classroom.jobs import JobResult
 from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan
-from raysteps.classroom.session import holds, submission_key
+from raysteps.classroom.session import is_up_to_date, submission_key
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
 from raysteps.report.student import REPORT
@@ -55,7 +55,7 @@ _A_DAY = timedelta(days=1)
 
 
 @dataclass(frozen=True)
-class Given:
+class LastFeedback:
     """The last feedback on a submission."""
 
     run: int
@@ -70,7 +70,7 @@ class FeedbackLog:
     def __init__(self, database: ClassDatabase) -> None:
         self._connection = database.connection
 
-    def last(self, name: str) -> Given | None:
+    def last(self, name: str) -> LastFeedback | None:
         row = self._connection.execute(
             "SELECT run, work, given_at, said FROM feedback_given JOIN submissions ON submissions.id = submission "
             "WHERE name = ? ORDER BY run DESC LIMIT 1",
@@ -78,7 +78,7 @@ class FeedbackLog:
         ).fetchone()
         if row is None:
             return None
-        return Given(row["run"], row["work"], datetime.fromisoformat(row["given_at"]), row["said"])
+        return LastFeedback(row["run"], row["work"], datetime.fromisoformat(row["given_at"]), row["said"])
 
     def used(self, students: Collection[str], since: datetime) -> Counter[str]:
         """How many each has had. What a clock that was set back since has dated later counts as well."""
@@ -88,7 +88,7 @@ class FeedbackLog:
         )
         return Counter({row["student"]: row["amount"] for row in rows if row["student"] in students})
 
-    def add(self, look: "Look", run: int, said: str, now: datetime) -> None:
+    def add(self, look: "EntryDecision", run: int, said: str, now: datetime) -> None:
         with transaction(self._connection):
             query = "SELECT id FROM submissions WHERE name = ?"
             (submission,) = self._connection.execute(query, (look.name,)).fetchone()
@@ -97,7 +97,7 @@ class FeedbackLog:
                 mine = {**row, "student": student, "given_at": stamp(now)}
                 insert(self._connection, "feedback_given", mine, "ON CONFLICT DO NOTHING")
 
-    def tells_now(self, name: str, run: int, said: str) -> None:
+    def record_rewrite(self, name: str, run: int, said: str) -> None:
         """The page of that feedback was written again: it stays one feedback."""
         self._connection.execute(
             "UPDATE feedback_given SET said = ? WHERE run = ? AND submission = "
@@ -105,7 +105,7 @@ class FeedbackLog:
             (said, run, name),
         )
 
-    def mend_clock(self, now: datetime) -> None:
+    def correct_clock(self, now: datetime) -> None:
         """What is dated more than a day ahead, by a clock that was wrong, counts from now: else it would count for as
         long as the clock was ahead."""
         late = (stamp(now), stamp(now + _A_DAY))
@@ -143,23 +143,23 @@ def _facts(path: Path) -> tuple[int, ...]:
     return (found.st_mode, found.st_ino, found.st_size, found.st_mtime_ns, found.st_ctime_ns)
 
 
-def signatures(entries: Sequence[Entry]) -> dict[str, str]:
+def signatures(entries: Sequence[ClassEntry]) -> dict[str, str]:
     return {entry.label: signature(entry.path) for entry in entries}
 
 
 # What becomes of each entry in one round.
 
-State = Literal["grade", "give", "given", "waiting", "changing", "nobody", "failed"]
+EntryState = Literal["grade", "give", "given", "waiting", "changing", "nobody", "failed"]
 _MAX_FAULTS = 3  # of the grader with one state of a submission, on one day
 
 
 @dataclass(frozen=True)
-class Look:
+class EntryDecision:
     """What is to be done with an entry. `counts`: whether that takes one of the day's feedbacks."""
 
-    entry: Entry
+    entry: ClassEntry
     name: str
-    state: State
+    state: EntryState
     students: tuple[str, ...] = ()
     work: str = ""
     counts: bool = False
@@ -168,7 +168,7 @@ class Look:
 
 
 @dataclass
-class Round:
+class NightlyRound:
     """One look at the class, and what follows from it. `before` are the signatures of an earlier look."""
 
     plan: Plan
@@ -187,7 +187,7 @@ class Round:
 
     def __post_init__(self) -> None:
         self.log = FeedbackLog(self.database)
-        self.log.mend_clock(self.now)
+        self.log.correct_clock(self.now)
 
     @cached_property
     def _owners(self) -> dict[str, tuple[str, ...]]:
@@ -198,13 +198,13 @@ class Round:
             owners[self.plan.listing.entries[at].label].append(folded(student.id or student.email or student.name))
         return {label: tuple(dict.fromkeys(students)) for label, students in owners.items()}
 
-    def is_whole(self, entry: Entry) -> bool:
+    def is_settled(self, entry: ClassEntry) -> bool:
         """Whether nothing was written into it since the earlier look."""
         now = signature(entry.path)
         return now != "" and now == self.before.get(entry.label)
 
     @cached_property
-    def looks(self) -> list[Look]:
+    def decisions(self) -> list[EntryDecision]:
         """Those to be graded that took long the last time come last: nobody else waits for them."""
         return sorted(map(self._look, self.plan.mine()), key=lambda look: look.seconds)
 
@@ -213,19 +213,19 @@ class Round:
         """Names of those that have an earlier result than what is there now."""
         return {
             look.name
-            for look in self.looks
+            for look in self.decisions
             if look.state in ("waiting", "changing")
             and not look.is_graded
             and self.database.current(look.name) is not None
         }
 
-    def _look(self, entry: Entry) -> Look:
+    def _look(self, entry: ClassEntry) -> EntryDecision:
         name = self.names[entry.label]
         students = self._owners.get(entry.label, () if self.plan.students else (name,))
         if not students:
-            return Look(entry, name, "nobody")
-        if not self.is_whole(entry):
-            return Look(entry, name, "changing", students)
+            return EntryDecision(entry, name, "nobody")
+        if not self.is_settled(entry):
+            return EntryDecision(entry, name, "changing", students)
         work = key = ""
         unreadable = False
         try:
@@ -235,30 +235,30 @@ class Round:
             unreadable = taken.unreadable
         except GraderFault:
             pass  # the session meets it again, and keeps it as a fault
-        if not self.is_whole(entry):
-            return Look(entry, name, "changing", students)
+        if not self.is_settled(entry):
+            return EntryDecision(entry, name, "changing", students)
         return self._judged(entry, name, students, key, work, unreadable=unreadable)
 
     def _judged(
-        self, entry: Entry, name: str, students: tuple[str, ...], key: str, work: str, *, unreadable: bool
-    ) -> Look:
+        self, entry: ClassEntry, name: str, students: tuple[str, ...], key: str, work: str, *, unreadable: bool
+    ) -> EntryDecision:
         current, last = self.database.current(name), self.log.last(name)
-        done = holds(current, key, require_sandbox=self.plan.options.require_sandbox)
+        done = is_up_to_date(current, key, require_sandbox=self.plan.options.require_sandbox)
         seconds = current["seconds"] if current is not None else 0.0
-        state: State = "give" if done else "grade"
+        state: EntryState = "give" if done else "grade"
         if current is not None and done and last is not None and last.run == current["run"]:
-            return Look(entry, name, "given", students, work)
+            return EntryDecision(entry, name, "given", students, work)
         is_fault = current is not None and current["status"] == "fault"
         if is_fault and (done or self._faults(name, key) >= _MAX_FAULTS):
-            return Look(entry, name, "failed", students, work)
+            return EntryDecision(entry, name, "failed", students, work)
         # What a student has not changed, or what told nothing, takes no feedback.
         counts = not unreadable and (last is None or last.work != work)
         if counts:
             had = self.log.used(students, self.allowance.day_began(self.now)) + self._reserved
             if any(had[student] >= self.allowance.per_day for student in students):
-                return Look(entry, name, "waiting", students, work, is_graded=done)
+                return EntryDecision(entry, name, "waiting", students, work, is_graded=done)
             self._reserved.update(students)
-        return Look(entry, name, state, students, work, counts, seconds=seconds)
+        return EntryDecision(entry, name, state, students, work, counts, seconds=seconds)
 
     def _faults(self, name: str, key: str) -> int:
         since = self.allowance.day_began(self.now).astimezone(UTC).isoformat(timespec="seconds")
@@ -269,13 +269,13 @@ class Round:
         ).fetchone()
         return int(amount)
 
-    def told(self, answer: Answer) -> None:
+    def told(self, answer: JobResult) -> None:
         """A result is there: it is given at once."""
-        look = next(look for look in self.looks if look.name == answer.name)
+        look = next(look for look in self.decisions if look.name == answer.name)
         if answer.status == "graded" and look.state == "grade":
             self.give(look)
 
-    def give(self, look: Look) -> None:
+    def give(self, look: EntryDecision) -> None:
         """The page is there before it counts: whoever is killed in between gives it again."""
         said = last_said(self.database, look.name)
         run = self._write_page(look.name)
@@ -288,17 +288,17 @@ class Round:
     def tell_again(self) -> None:
         """What people said of a result since its page was given takes no feedback. A result that is not given yet
         stays untold."""
-        for name in sorted(annotated(self.database) & {look.name for look in self.looks if look.students}):
+        for name in sorted(annotated(self.database) & {look.name for look in self.decisions if look.students}):
             current, last, said = self.database.current(name), self.log.last(name), last_said(self.database, name)
             if current is None or last is None or last.run != current["run"] or last.said == said:
                 continue
             if self._write_page(name) is not None:
-                self.log.tells_now(name, last.run, said)
+                self.log.record_rewrite(name, last.run, said)
                 self.told_again.append(name)
 
     def _write_page(self, name: str) -> int | None:
         """As the result that counts is now, with all that people said of it. Gives its run."""
-        standings = Standings(self.database)
+        standings = CurrentResults(self.database)
         one = standings.named(name)
         with tempfile.TemporaryDirectory(prefix="raysteps-class-") as place:
             steps = steps_of(standings.steps)
@@ -311,11 +311,11 @@ class Round:
 
     def write_statuses(self) -> None:
         """Beside each page what may be expected next."""
-        for look in self.looks:
+        for look in self.decisions:
             if look.students:
                 write_if_changed(self.folder / look.name / STATUS, self._words(look).encode())
 
-    def _words(self, look: Look) -> str:
+    def _words(self, look: EntryDecision) -> str:
         last = self.log.last(look.name)
         used = max(self.log.used(look.students, self.allowance.day_began(self.now)).values(), default=0)
         most, later = self.allowance.per_day, shown(self.allowance.next_day(self.now))

@@ -19,7 +19,7 @@ def _send(pid: int, number: signal.Signals) -> None:
         os.kill(pid, number)
 
 
-def end_tree(root: int) -> None:
+def kill_process_tree(root: int) -> None:
     """Also what it started in sessions of their own, such as the programs of a submission."""
     stopped: set[int] = set()
     new = {root}
@@ -44,5 +44,5 @@ def remove(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    end_tree(int(sys.argv[1]))
+    kill_process_tree(int(sys.argv[1]))
     remove(Path(sys.argv[2]))

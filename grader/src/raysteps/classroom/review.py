@@ -181,7 +181,7 @@ def _look_again(mine: Sequence[Annotation], results: Results, known: Mapping[str
 
 
 @dataclass(frozen=True)
-class Reviewed:
+class ReviewedResults:
     """`results` hold the points that count; lateness comes after that."""
 
     results: Results
@@ -195,7 +195,7 @@ def review_results(
     sources: Mapping[str, Source],
     mark: str,
     blobs: Blobs,
-) -> Reviewed:
+) -> ReviewedResults:
     """`mark` is that of the code as it is now."""
     found = threads(annotations)
     known = {step.id: step for step in steps}
@@ -214,7 +214,7 @@ def review_results(
     words = [change_words(step.id, one) for step in made if step.review for one in step.review.overrides]
     words += [change_words("", one) for one in whole]
     again = _look_again(_points(found), results, known)
-    return Reviewed(changed, _human_review(found, mark, results.total.points, words, again))
+    return ReviewedResults(changed, _human_review(found, mark, results.total.points, words, again))
 
 
 def _human_review(
@@ -232,7 +232,9 @@ def _human_review(
     )
 
 
-def reviewed(database: ClassDatabase, submission: int, run: int, results: Results, steps: Sequence[Step]) -> Reviewed:
+def reviewed(
+    database: ClassDatabase, submission: int, run: int, results: Results, steps: Sequence[Step]
+) -> ReviewedResults:
     """The result with all that people added to it until now."""
     sources = database.sources(submission, run)
     annotations = annotations_of(database, submission)

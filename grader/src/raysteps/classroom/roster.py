@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 
 from raysteps.classroom.entries import folded, platform_identity, stem
-from raysteps.common.errors import UsageError, place_of, reason
+from raysteps.common.errors import UsageError, decode_error_position, reason
 from raysteps.common.text import delimiter_of, join_and, join_some, nearest, one_line, seen
 from raysteps.submission.load import like
 
@@ -124,7 +124,9 @@ def _text(path: Path) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UsageError(f"{path}:{place_of(error)}: is not UTF-8; save the roster as `CSV UTF-8`") from error
+        raise UsageError(
+            f"{path}:{decode_error_position(error)}: is not UTF-8; save the roster as `CSV UTF-8`"
+        ) from error
 
 
 def _rows(text: str, path: Path) -> Iterable[tuple[int, list[str]]]:
@@ -268,7 +270,7 @@ def _named(entries: list[str], name: str) -> list[int]:
     return same or [at for at, entry in enumerate(entries) if stem(entry).casefold() == stem(name).casefold()]
 
 
-def _nobodys(name: str, students: list[Student]) -> str:
+def _why_unmatched(name: str, students: list[Student]) -> str:
     """What to say of an entry that fits nobody: who has the same words in another order is asked about, not taken."""
     words = sorted(_plain(name).split("_"))
     there = [student for student in students if student.name and sorted(_plain(student.name).split("_")) == words]
@@ -300,5 +302,5 @@ def match(entries: list[str], students: list[Student]) -> Matches:
             shown = ", ".join(students[number].shown for number in best)
             matches.entry_notes[at] = f"Its name fits several students ({shown}), so it was given to none of them."
         elif students:
-            matches.entry_notes[at] = _nobodys(name, students)
+            matches.entry_notes[at] = _why_unmatched(name, students)
     return matches

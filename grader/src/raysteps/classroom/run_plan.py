@@ -14,13 +14,13 @@ from raysteps.classroom.database import (
     FILE,
     LOCK,
     ClassDatabase,
-    Registered,
-    Registration,
+    RegisteredEntry,
     RunFacts,
     Scope,
+    StudentEntries,
     refuse_results,
 )
-from raysteps.classroom.entries import Entry, Listing, Shard, list_entries, name_entries, newest_time
+from raysteps.classroom.entries import ClassEntry, Listing, Shard, list_entries, name_entries, newest_time
 from raysteps.classroom.jobs import KIT_GRADER
 from raysteps.classroom.late_policy import late_policy_text, parse_late_policy
 from raysteps.classroom.roster import Matches, Student, match, read_roster
@@ -169,7 +169,7 @@ def read_run_inputs(options: ClassOptions) -> RunInputs:
 _MAX_NAMED = 3
 
 
-def _leads_to(entry: Entry) -> str:
+def _leads_to(entry: ClassEntry) -> str:
     others = join_some(entry.leads_to, _MAX_NAMED)
     return (
         f"{entry.label} leads to the same files as {others}. Put what was handed in in place of the link; "
@@ -223,7 +223,7 @@ class Plan:
             course=self.options.course.name,
         )
 
-    def registered(self, known: dict[str, str]) -> list[Registered]:
+    def registered(self, known: dict[str, str]) -> list[RegisteredEntry]:
         """All entries, also those of other shards, so that merging shards shows what is missing."""
         names = name_entries([entry.label for entry in self.listing.entries], known)
         times = self._times()
@@ -239,7 +239,7 @@ class Plan:
                 note = f"Its students have different times in the roster ({times_said}); the latest counts."
             if entry.leads_to:
                 note = " ".join(filter(None, (_leads_to(entry), note)))
-            rows.append(Registered(entry.label, names[entry.label], scope, when, source, note))
+            rows.append(RegisteredEntry(entry.label, names[entry.label], scope, when, source, note))
         return rows
 
     def _times(self) -> dict[int, list[tuple[str, str]]]:
@@ -258,7 +258,7 @@ class Plan:
                 times[at][moment(text)] = text
         return {at: [(said[when], when.isoformat()) for when in sorted(said)] for at, said in times.items()}
 
-    def registrations(self) -> list[Registration]:
+    def registrations(self) -> list[StudentEntries]:
         entries: dict[int, list[str]] = defaultdict(list)
         for at, number in self.matches.pairs:
             entries[number].append(self.listing.entries[at].label)
@@ -267,10 +267,10 @@ class Plan:
             note = self.matches.student_notes.get(number, "")
             if len(entries[number]) > 1:
                 note = f"Handed in more than once: {', '.join(entries[number])}. Say which one counts in the roster."
-            rows.append(Registration(student.id, student.name, student.email, tuple(entries[number]), note))
+            rows.append(StudentEntries(student.id, student.name, student.email, tuple(entries[number]), note))
         return rows
 
-    def mine(self) -> list[Entry]:
+    def mine(self) -> list[ClassEntry]:
         return [entry for entry in self.listing.entries if self.options.shard.holds(entry.label)]
 
 

@@ -12,11 +12,11 @@ from functools import cached_property
 from types import FrameType
 from typing import Protocol
 
-from raysteps.classroom.class_document import Standings
+from raysteps.classroom.class_document import CurrentResults
 from raysteps.classroom.class_files import withdraw_tables, write_submission
 from raysteps.classroom.database import ClassDatabase
-from raysteps.classroom.entries import Entry, load_entry
-from raysteps.classroom.jobs import GAVE_UP, Answer, Job
+from raysteps.classroom.entries import ClassEntry, load_entry
+from raysteps.classroom.jobs import GAVE_UP, Job, JobResult
 from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.summary import ProgressMeter
@@ -38,7 +38,7 @@ def submission_key(submission: Submission, kit: str, settings: Settings) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def holds(current: sqlite3.Row | None, key: str, *, require_sandbox: bool) -> bool:
+def is_up_to_date(current: sqlite3.Row | None, key: str, *, require_sandbox: bool) -> bool:
     """Whether the result that counts for a submission needs no other one."""
     if current is None or current["key"] != key:
         return False
@@ -86,7 +86,7 @@ def undisturbed() -> Iterator[None]:
 class Runner(Protocol):
     """Something that grades jobs: this machine, or many."""
 
-    def answers(self, jobs: Iterator[Job]) -> Iterator[Answer]: ...
+    def answers(self, jobs: Iterator[Job]) -> Iterator[JobResult]: ...
 
     def close(self) -> None:
         """Ends what still runs."""
@@ -113,17 +113,17 @@ class Session:
     run: int
     names: dict[str, str]
     learn: Callable[[], None] = lambda: None  # called when the first job is due
-    entries: Sequence[Entry] | None = None  # those to grade, in this order; all of the plan when not said
-    is_whole: Callable[[Entry], bool] = lambda entry: True  # asked once an entry was read: it may be changing
-    told: Callable[[Answer], None] = lambda answer: None  # of each result that was kept
+    entries: Sequence[ClassEntry] | None = None  # those to grade, in this order; all of the plan when not said
+    is_whole: Callable[[ClassEntry], bool] = lambda entry: True  # asked once an entry was read: it may be changing
+    told: Callable[[JobResult], None] = lambda answer: None  # of each result that was kept
     reused: dict[str, str] = field(default_factory=dict)  # with the digests of their sources
     recorded: set[str] = field(default_factory=set)
     _pending: dict[str, _Pending] = field(default_factory=dict)
 
     @cached_property
-    def _standings(self) -> Standings:
+    def _standings(self) -> CurrentResults:
         """By the roster and the late policy of this run."""
-        return Standings(self.database)
+        return CurrentResults(self.database)
 
     def _jobs(self) -> Iterator[Job]:
         """Read only when it is their turn: a whole class need not fit into memory."""
@@ -133,7 +133,7 @@ class Session:
             try:
                 taken = load_entry(name, entry, self.plan.steps)
             except GraderFault as fault:
-                self._record(Answer(name, "fault", fault=str(fault), worker="head"), _Pending("", False))
+                self._record(JobResult(name, "fault", fault=str(fault), worker="head"), _Pending("", False))
                 continue
             if not self.is_whole(entry):
                 self.meter.skip()
@@ -141,7 +141,7 @@ class Session:
             key = submission_key(taken.submission, self.kit, self.plan.grading)
             require = self.plan.options.require_sandbox
             digest = sources_digest(taken.submission)
-            if self.plan.options.resume and holds(self.database.current(name), key, require_sandbox=require):
+            if self.plan.options.resume and is_up_to_date(self.database.current(name), key, require_sandbox=require):
                 self.database.keep_sources(name, taken.submission.sources)
                 self.reused[name] = digest
                 self.meter.skip()
@@ -155,7 +155,7 @@ class Session:
                 taken.submission, self.plan.grading, options.grader, self.kit, options.require_sandbox, self.plan.uid
             )
 
-    def _record(self, answer: Answer, pending: _Pending) -> None:
+    def _record(self, answer: JobResult, pending: _Pending) -> None:
         kept = self.database.record(
             *(self.run, answer, pending.key),
             unreadable=pending.unreadable,

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NoReturn
 
-from raysteps.classroom.jobs import SAME_KIT, Answer, Grader, Job, ProgressCallback, from_line, make_grader, to_line
+from raysteps.classroom.jobs import SAME_KIT, Grader, Job, JobResult, ProgressCallback, from_line, make_grader, to_line
 from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.results.model import Results
 from raysteps.results.store import read_results
@@ -37,13 +37,13 @@ def _named_files(results: Results) -> Iterator[str]:
             yield from filter(None, (image.mine, image.reference, image.difference))
 
 
-def _read_answer(job: Job, out: Path, seconds: float) -> Answer:
+def _read_answer(job: Job, out: Path, seconds: float) -> JobResult:
     """Only pictures and cases that the results name: what they withhold stays here."""
     results = read_results(out / "results.json")
     if results.submission != job.submission.name:
         raise GraderFault(f"these are the results of {results.submission}")
     pictures = {path: (out / path).read_bytes() for path in sorted(set(_named_files(results)))}
-    return Answer(job.submission.name, "graded", results, pictures, seconds=seconds, worker=this_worker())
+    return JobResult(job.submission.name, "graded", results, pictures, seconds=seconds, worker=this_worker())
 
 
 class JobRunner:
@@ -66,7 +66,7 @@ class JobRunner:
             )
         return self._grader
 
-    def grade(self, job: Job) -> Answer:
+    def grade(self, job: Job) -> JobResult:
         """Whatever goes wrong becomes a fault of this submission."""
         start = time.monotonic()
         try:
@@ -76,7 +76,7 @@ class JobRunner:
                 return _read_answer(job, Path(folder), time.monotonic() - start)
         except Exception as error:
             text = str(error) if isinstance(error, RaystepsError) else f"{type(error).__name__}: {error}"
-            return Answer(
+            return JobResult(
                 job.submission.name,
                 "fault",
                 fault=text or type(error).__name__,

@@ -330,9 +330,9 @@ def run_process(argv: Sequence[str] | None = None) -> int:
     command = next((one for one in _commands(project) if words[:1] == [one.name] and one.supervised), None)
     if command is None:
         return main(words)
-    from raysteps.cli.supervise import supervised  # rarely
+    from raysteps.cli.supervise import run_with_timeout  # rarely
 
     try:
-        return supervised(lambda: main(words), _module(project, command).seconds_at_most(words))
+        return run_with_timeout(lambda: main(words), _module(project, command).seconds_at_most(words))
     except BaseException as error:
         return exit_code_of(error)

@@ -14,7 +14,7 @@ from raysteps.images.compare import (
     PictureError,
     Pixels,
     difference,
-    gaps,
+    pixel_differences,
     read_png,
     read_ppm,
     widest,
@@ -60,7 +60,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if mine.shape != reference.shape:
         sizes = [f"{pixels.shape[1]}x{pixels.shape[0]}" for pixels in (mine, reference)]
         raise UsageError(f"{arguments.mine}: is {sizes[0]} pixels, and the other {sizes[1]}; expected one size")
-    gap = gaps(mine, reference)
+    gap = pixel_differences(mine, reference)
     wrong = int((gap > TOLERANCE).sum())
     console.print(f"{wrong} of {gap.size} pixels ({wrong / gap.size:.2%}) differ by more than {TOLERANCE} of 255.")
     if gap.any():

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from raysteps.classroom.database import FILE, ClassDatabase, telling_of
+from raysteps.classroom.database import FILE, ClassDatabase, explained_sqlite_errors
 from raysteps.classroom.session import undisturbed
 from raysteps.cli import port
 from raysteps.common.errors import UsageError
@@ -17,9 +17,9 @@ from raysteps.common.local_server import end_as_interrupted, on_a_desktop, shown
 from raysteps.common.platform import kit_command, refuse_on_windows
 from raysteps.common.text import count
 from raysteps.course.project import Project
+from raysteps.desk.annotation_files import export_file, import_file
 from raysteps.desk.desk import Desk, DeskServer
 from raysteps.desk.file_writer import check_folder, write_all
-from raysteps.desk.said import export_file, import_file
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -87,7 +87,7 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
 
 def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int:
     check_folder(out)
-    with telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
+    with explained_sqlite_errors(out / FILE, "used"), closing(ClassDatabase(out)) as database:
         if arguments.taken:
             new = import_file(database, arguments.taken, arguments.author or _login())
             rows = f"{count(new, 'row')} taken in that the class did not have (comments, points, requests and the like)"

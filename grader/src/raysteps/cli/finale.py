@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.cli import STUDENTS_KIT, add_impl, picture_size, square_number
-from raysteps.cli.render import build_program, run_raytrace, scene_there
+from raysteps.cli.render import build_program, resolve_scene, run_raytrace
 from raysteps.cli.todo_steps import built_trees, unfinished
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import usable_folder, write_out
@@ -21,8 +21,14 @@ from raysteps.common.text import clean, count, join_and
 from raysteps.common.text import size as shown_size
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project, is_of_part_two
-from raysteps.finale.finale_page import Finale, Station, can_be_written, finale_page, in_words, poster
-from raysteps.finale.own_pictures import NotDrawn, OwnProgram, Reach, reach_of, refuse_without_denoiser
+from raysteps.finale.finale_page import Finale, Station, finale_page, has_glyphs, in_words, poster
+from raysteps.finale.own_pictures import (
+    AvailableSteps,
+    OwnProgram,
+    RenderFailed,
+    available_steps,
+    refuse_without_denoiser,
+)
 from raysteps.images.compare import write_png
 from raysteps.progress.standing import standings
 from raysteps.report.terminal import short_path
@@ -102,11 +108,11 @@ def _new_scene(project: Project, path: Path, console: Console) -> int:
     return 0
 
 
-def _reach(project: Project, impl: str, *, part_two: bool) -> Reach:
+def _reach(project: Project, impl: str, *, part_two: bool) -> AvailableSteps:
     steps = read_steps(project)
     mine = impl == "mine"
     left = {step.id for upto in steps for step, _ in unfinished(project, upto.index)} if mine else set()
-    reach = reach_of(steps, {step.id for step in steps} - left, part_two=part_two)
+    reach = available_steps(steps, {step.id for step in steps} - left, part_two=part_two)
     if not any(not step.is_about_a_tree for step in reach.drawn):
         first = steps[0]
         raise UsageError(
@@ -118,7 +124,7 @@ def _reach(project: Project, impl: str, *, part_two: bool) -> Reach:
     return reach
 
 
-def _notes(project: Project, reach: Reach, impl: str) -> dict[str, str]:
+def _notes(project: Project, reach: AvailableSteps, impl: str) -> dict[str, str]:
     """By step: what keeps it from being done."""
     notes = {step.id: f"Still to be written. {own_command()} watch {step.number} begins it." for step in reach.missing}
     if impl == "mine":
@@ -148,7 +154,7 @@ def _say_more(said: Sequence[str], console: Console) -> None:
 
 def _stations(
     own: OwnProgram,
-    reach: Reach,
+    reach: AvailableSteps,
     steps: Sequence[Step],
     shape: tuple[int, ...],
     notes: dict[str, str],
@@ -167,7 +173,7 @@ def _stations(
     return found
 
 
-def _say_first(reach: Reach, impl: str, scene: str, samples: int, console: Console) -> None:
+def _say_first(reach: AvailableSteps, impl: str, scene: str, samples: int, console: Console) -> None:
     missing = [f"{step.number} {step.title}{' (bonus)' if step.bonus else ''}" for step in reach.missing]
     it = "it" if len(missing) == 1 else "them"
     said = [f"not written yet, so without {it}: {join_and(missing)}"] if missing else []
@@ -181,7 +187,7 @@ def _say_first(reach: Reach, impl: str, scene: str, samples: int, console: Conso
 
 
 def _make(
-    project: Project, arguments: argparse.Namespace, own: OwnProgram, reach: Reach, out: Path, console: Console
+    project: Project, arguments: argparse.Namespace, own: OwnProgram, reach: AvailableSteps, out: Path, console: Console
 ) -> None:
     ours = arguments.scene is None
     usual = _NOISY_SAMPLES if reach.part_two else _SAMPLES if reach.tree != "none" else _FEW_SAMPLES
@@ -213,7 +219,7 @@ def _make(
         best = min(counted, key=lambda one: one.work.tests_per_ray)
         share = best.work.tests_per_ray / (counted[0].work.tests_per_ray or 1.0)
         said.append(f"{best.name}: {100 * (1 - share):.1f} % of the tests spared")
-    if not all(can_be_written(text) for text in (title, arguments.name)):
+    if not all(has_glyphs(text) for text in (title, arguments.name)):
         said.append(
             "no font here has all letters of title and name: the poster does without; the page, printed, has them"
         )
@@ -231,7 +237,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             raise UsageError(f"{arguments.scene}: --new writes a scene and draws none; expected one of the two")
         return _new_scene(project, arguments.new, console)
     scene = arguments.scene or os.fspath(project.scenes / _SCENE)
-    scene = scene_there(project, scene)
+    scene = resolve_scene(project, scene)
     part_two = is_of_part_two(Path(scene))
     if arguments.denoise:
         if not part_two:
@@ -248,7 +254,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         own = OwnProgram(partial(run_raytrace, program), scene, Path(folder), threads)
         try:
             _make(project, arguments, own, reach, out, console)
-        except NotDrawn as stopped:
+        except RenderFailed as stopped:
             if stopped.code != _BAD_SCENE:
                 _say_more([f"raysteps: no finale without {stopped}"], console)
             return stopped.code

@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import one_at_a_time
+from raysteps.common.files import file_lock
 from raysteps.common.platform import kit_command, processor_count
 from raysteps.common.text import join_some
 from raysteps.course.manifest import STEPS_HELP, chosen_steps, read_steps
@@ -20,12 +20,12 @@ from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.grading.pipeline import grade_submission
 from raysteps.grading.scoring import exit_code
-from raysteps.grading.step import clear
+from raysteps.grading.step import clear_old_results
 from raysteps.grading.withhold import withhold
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results, Settings
-from raysteps.results.store import FOLDER as CASES
+from raysteps.results.store import CASES_FOLDER as CASES
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, refuse_results_in, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit
@@ -124,11 +124,11 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
     lock = hashlib.sha256(str(out).encode()).hexdigest()[:16]
     with console.status("starting") as status:
         say = progress(console, status)
-        with one_at_a_time(room / "locks" / lock, lambda: say(f"waiting for another command, which grades into {out}")):
+        with file_lock(room / "locks" / lock, lambda: say(f"waiting for another command, which grades into {out}")):
             submission = load_submission(options.submission, read_steps(project))
             kit = build_kit(project, say)
             replaces = (out / "results.json").exists() and bool(options.settings.only)
-            clear(out, kit.steps, kit.steps)
+            clear_old_results(out, kit.steps, kit.steps)
             jobs = options.jobs or processor_count()
             results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs, course=course)
             told = withhold(results, options.settings.feedback)  # the terminal may be the student's, too

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from raysteps.classroom.class_files import withdraw_tables, write_class
 from raysteps.classroom.cluster import Cluster
-from raysteps.classroom.database import FILE, LOCK, ClassDatabase, telling_of
+from raysteps.classroom.database import FILE, LOCK, ClassDatabase, explained_sqlite_errors
 from raysteps.classroom.entries import Shard, read_shard
 from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
 from raysteps.classroom.local_pool import LocalPool
@@ -124,7 +124,7 @@ def _plain(value: float) -> str:
     return format(Decimal(repr(value)), "f").removesuffix(".0")
 
 
-def line_to_go_on(options: ClassOptions) -> str:
+def resume_command(options: ClassOptions) -> str:
     """The line that goes on with the same run."""
     words: list[str] = ["./raysteps", "grade-class", str(options.folder), "--out", str(options.out)]
     for option, path, dropped in (
@@ -150,7 +150,7 @@ def line_to_go_on(options: ClassOptions) -> str:
 
 
 @contextmanager
-def only_one(out: Path) -> Iterator[None]:
+def class_lock(out: Path) -> Iterator[None]:
     """Two runs into one folder would take each other's results for changes."""
     usable_folder(out)
     with (out / LOCK).open("a") as file:
@@ -194,7 +194,7 @@ def _prepare(plan: Plan, meter: ProgressMeter) -> Grader:
 
 
 def _again(options: ClassOptions) -> str:
-    return f"To go on:\n  {line_to_go_on(options)}"
+    return f"To go on:\n  {resume_command(options)}"
 
 
 def _interrupted(console: Console, again: str) -> int:
@@ -206,7 +206,7 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
     options = plan.options
     again = _again(options)
     runner = _runner(plan, grader.fingerprint, meter)
-    with telling_of(options.out / FILE, "used"), closing(ClassDatabase(options.out)) as database:
+    with explained_sqlite_errors(options.out / FILE, "used"), closing(ClassDatabase(options.out)) as database:
         registered = plan.registered(database.names())
         run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations())
         names = {row.entry: row.name for row in registered}
@@ -230,7 +230,7 @@ def _grade(console: Console, plan: Plan, grader: Grader, meter: ProgressMeter) -
 
 
 def _merge(console: Console, folders: list[Path], out: Path) -> int:
-    with only_one(out), telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
+    with class_lock(out), explained_sqlite_errors(out / FILE, "used"), closing(ClassDatabase(out)) as database:
         missing, warnings = merge(folders, database)
         withdraw_tables(out)
         document = _finish(console, database, out)
@@ -249,7 +249,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
         refuse_beside_merge(arguments)
         return _merge(console, arguments.merge, arguments.out)
     plan = make_plan(project, read_options(arguments, grader, read_course(project)))
-    with only_one(plan.options.out):
+    with class_lock(plan.options.out):
         meter = ProgressMeter(console, len(plan.mine()))
         for words in plan.given.said:
             meter.say(words)

@@ -13,8 +13,8 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.cli import STUDENTS_KIT, add_impl
-from raysteps.cli.render import build_program, scene_there, whose
-from raysteps.cli.todo_steps import as_far_as_written, built_trees, refuse_missing_tree, unfinished, usual_step
+from raysteps.cli.render import build_program, implementation_name, resolve_scene
+from raysteps.cli.todo_steps import as_far_as_written, built_trees, default_step, refuse_missing_tree, unfinished
 from raysteps.common import process
 from raysteps.common.documents import Malformed, parse, plain
 from raysteps.common.errors import UsageError
@@ -172,7 +172,7 @@ def _options(project: Project, arguments: argparse.Namespace) -> InspectOptions:
         if said:
             print(f"raysteps: {said}", file=sys.stderr)
     at = words.index("--step") if "--step" in words else len(words)
-    step = int((words[at + 1 : at + 2] or [usual_step(project)])[0])
+    step = int((words[at + 1 : at + 2] or [default_step(project)])[0])
     given = (*words[:at], *words[at + 2 :])
     return InspectOptions(arguments.scene, arguments.x, arguments.y, step, given, arguments.path)
 
@@ -192,7 +192,7 @@ def _say_unfinished(project: Project, options: InspectOptions) -> None:
 def _tell_problem(project: Project, inspected: InspectResult, program: Path, options: InspectOptions) -> None:
     good = last_good_step(program, options, read_all_steps(project))
     up_to = f" With --step {good} it comes to its end." if 0 < good < options.step else ""
-    print(f"raysteps: {whose(program)} {inspected.problem}{up_to}", file=sys.stderr)
+    print(f"raysteps: {implementation_name(program)} {inspected.problem}{up_to}", file=sys.stderr)
 
 
 def _write_json(arguments: argparse.Namespace, inspected: InspectResult, console: Console) -> None:
@@ -206,7 +206,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     options = _options(project, arguments)
     if arguments.against and arguments.impl == "reference":
         raise UsageError("--against reference: expected your own steps beside it, found --impl reference")
-    options = replace(options, scene=scene_there(project, arguments.scene))
+    options = replace(options, scene=resolve_scene(project, arguments.scene))
     for path in (arguments.json, arguments.html):
         if path is not None:
             refuse_to_write(path)

@@ -14,17 +14,17 @@ from rich.console import Console
 
 from raysteps.classroom.annotations import is_unwritten
 from raysteps.classroom.class_files import withdraw_tables, write_class
-from raysteps.classroom.database import FILE, ClassDatabase, telling_of
+from raysteps.classroom.database import FILE, ClassDatabase, explained_sqlite_errors
 from raysteps.classroom.entries import NoSubmission
 from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
 from raysteps.classroom.late_policy import parse_late_policy
 from raysteps.classroom.local_pool import LocalPool
-from raysteps.classroom.nightly import Allowance, Look, Round, shown, signatures
+from raysteps.classroom.nightly import Allowance, EntryDecision, NightlyRound, shown, signatures
 from raysteps.classroom.repositories import Remotes, fetch_all
 from raysteps.classroom.run_plan import ClassOptions, Plan, make_plan, read_run_inputs
 from raysteps.classroom.session import Session, terminated_as_interrupted
 from raysteps.classroom.summary import ProgressMeter
-from raysteps.cli.grade_class import add_grading_arguments, only_one, read_options
+from raysteps.cli.grade_class import add_grading_arguments, class_lock, read_options
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason_and_place
 from raysteps.common.files import usable_folder
 from raysteps.common.platform import refuse_on_windows
@@ -114,7 +114,7 @@ class _Night:
     def round(self) -> int:
         """0; 4 when the grader failed with some, 130 when it was interrupted."""
         out = self.options.out
-        with only_one(out), telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
+        with class_lock(out), explained_sqlite_errors(out / FILE, "used"), closing(ClassDatabase(out)) as database:
             try:
                 plan = self._plan()
             except NoSubmission as nothing:
@@ -145,15 +145,15 @@ class _Night:
         registered = plan.registered(database.names())
         names = {row.entry: row.name for row in registered}
         allowance = Allowance(self.per_day, self._zone_of(plan))
-        look = Round(
+        look = NightlyRound(
             *(plan, grader.fingerprint, database, names, allowance, self.clock(), before, self.give),
             *(self.options.feedback, self._print),
         )
-        for one in look.looks:
+        for one in look.decisions:
             if one.state == "give":
                 look.give(one)
-        due = [one for one in look.looks if one.state == "grade"]
-        complete, failed = True, [one.name for one in look.looks if one.state == "failed"]
+        due = [one for one in look.decisions if one.state == "grade"]
+        complete, failed = True, [one.name for one in look.decisions if one.state == "failed"]
         if due or _is_unfinished(database, self.options.out):
             run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations(), look.left_out)
             meter = ProgressMeter(self.console, len(due))
@@ -161,7 +161,7 @@ class _Night:
                 *(plan, grader.fingerprint, database, meter, run, names),
                 learn=lambda: grader.learn([step.id for step in plan.chosen], meter.say),
                 entries=[one.entry for one in due],
-                is_whole=look.is_whole,
+                is_whole=look.is_settled,
                 told=look.told,
             )
             with meter:
@@ -176,7 +176,7 @@ class _Night:
         self._tell(look, allowance, failed)
         return 130 if not complete else GraderFault.exit_code if failed else 0
 
-    def _write_what_changed(self, look: Round, database: ClassDatabase) -> None:
+    def _write_what_changed(self, look: NightlyRound, database: ClassDatabase) -> None:
         """After a look that graded nothing: who waits now, and what was said at a desk that could not write it."""
         is_new = look.left_out != database.left_out()
         if is_new:
@@ -185,14 +185,14 @@ class _Night:
         if is_new or is_unwritten(database.connection):
             write_class(database, self.options.out, database.names().values())
 
-    def _tell(self, look: Round, allowance: Allowance, failed: list[str]) -> None:
+    def _tell(self, look: NightlyRound, allowance: Allowance, failed: list[str]) -> None:
         """One line for each look that found something else than the one before."""
         parts = [f"{count(len(look.given), 'feedback')} given"]
         later = shown(allowance.next_day(look.now))
         for what, names in (
-            (f"waiting until {later}", _named(look.looks, "waiting")),
-            ("still being uploaded", _named(look.looks, "changing")),
-            ("of nobody on the roster", _named(look.looks, "nobody")),
+            (f"waiting until {later}", _named(look.decisions, "waiting")),
+            ("still being uploaded", _named(look.decisions, "changing")),
+            ("of nobody on the roster", _named(look.decisions, "nobody")),
             ("the grader failed", failed),
             ("with new comments or points", sorted(look.told_again, key=name_order)),
         ):
@@ -203,7 +203,7 @@ class _Night:
         self._line = line
 
 
-def _named(looks: list[Look], state: str) -> list[str]:
+def _named(looks: list[EntryDecision], state: str) -> list[str]:
     return sorted((look.name for look in looks if look.state == state), key=name_order)
 
 

@@ -20,7 +20,14 @@ from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.play.packages import REGISTRY, registry_of
 from raysteps.play.play_page import check_published
-from raysteps.release.build_release import PageOptions, due_steps, first_steps, release, usable, written_files
+from raysteps.release.build_release import (
+    PageOptions,
+    due_steps,
+    first_steps,
+    refuse_foreign_files,
+    release,
+    written_files,
+)
 from raysteps.release.leaks import Leak, find_leaks, leaks_in_history, not_searched
 from raysteps.release.secrets import Secrets, gather
 from raysteps.report.terminal import progress
@@ -155,7 +162,7 @@ def write(
         raise UsageError("--course: expected a name of one line")
     out = target.resolve()
     refuse_inside(project, out)
-    usable(out)
+    refuse_foreign_files(out)
     steps = _chosen(project, names, console)
     written_files(project, steps, course)  # what may not go out is told before anything is built
     secrets = gather(project)

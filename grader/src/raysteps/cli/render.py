@@ -180,7 +180,7 @@ def build_program(tree: BuildTree, name: str, impl: str) -> Path:
     return (build_mine if impl == "mine" else build_reference)(tree, f"{name}-{impl}")
 
 
-def whose(program: Path) -> str:
+def implementation_name(program: Path) -> str:
     """A program as people speak of it."""
     return "your program" if program.stem.endswith("-mine") else "the reference's program"
 
@@ -190,7 +190,7 @@ def run_raytrace(program: Path, args: list[str]) -> int:
     code = subprocess.run([program, *args], check=False).returncode
     name = Outcome(code, timed_out=False, stdout="", stderr="", seconds=0).signal_words
     if name is not None:
-        print(f"raysteps: {whose(program)} crashed ({name}) while it rendered", file=sys.stderr)
+        print(f"raysteps: {implementation_name(program)} crashed ({name}) while it rendered", file=sys.stderr)
         return 1
     return code
 
@@ -228,10 +228,10 @@ def with_scene(project: Project, args: Sequence[str], command: str) -> list[str]
         )
     if place is None:
         return list(args)
-    return [*args[:place], scene_there(project, args[place]), *args[place + 1 :]]
+    return [*args[:place], resolve_scene(project, args[place]), *args[place + 1 :]]
 
 
-def scene_there(project: Project, scene: str) -> str:
+def resolve_scene(project: Project, scene: str) -> str:
     """The scene, or of a model the scene around it. Before anything is built."""
     path = Path(scene)
     if not scene or (path.exists() and not path.is_dir()):

@@ -21,7 +21,15 @@ from raysteps.judge.counterexamples import LONGEST, CaseFile, read_case
 from raysteps.judge.decode_case import decode_inputs
 from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.protocol import ProtocolError
-from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_student, ask_worker, judge_reply, reference_unkept
+from raysteps.judge.worker import (
+    Ask,
+    JudgedCase,
+    TimeBudget,
+    ask_student,
+    ask_worker,
+    judge_reply,
+    uncached_reference_answers,
+)
 from raysteps.report.terminal import progress
 from raysteps.report.wording import check_command
 from raysteps.sandbox.detect import find_sandbox
@@ -123,7 +131,7 @@ def _student(kit: BuiltKit, step: Step, source: bytes, sandbox: Sandbox, folder:
 def _ask(kit: BuiltKit, step: Step, path: Path, case: Case, student: Ask) -> JudgedCase:
     """The reference is asked as well: a case may have been written by hand."""
     reply = ask_worker(student, [case], TimeBudget(step.seconds, 1)).replies[0]
-    expected = ask_worker(lambda cases, _: reference_unkept(kit, cases), [case], TimeBudget(60, 1)).replies[0]
+    expected = ask_worker(lambda cases, _: uncached_reference_answers(kit, cases), [case], TimeBudget(60, 1)).replies[0]
     try:
         return judge_reply(functions_of(step.number)[case.function], case, expected.line, reply)
     except GraderFault as error:

@@ -21,24 +21,24 @@ from raysteps.course.manifest import STEPS_HELP, Step, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.exports.similar_pairs import (
-    LOOK,
     MAX_SUBMISSIONS,
     MAX_TOKENS,
+    REVIEW_THRESHOLD,
+    ComparedSubmission,
     Comparison,
-    Handed,
     Likeness,
     Origin,
     Passage,
     Similarity,
     SimilarPair,
-    Words,
+    TokenSequence,
     all_hashes,
     compare,
     groups,
     is_read_whole,
     passages,
 )
-from raysteps.exports.similarity import everybodys_code, kits_ways, started_of_class
+from raysteps.exports.similarity import base_code, known_solutions, started_of_class
 from raysteps.release.secrets import public_names
 from raysteps.report.class_page import aliases
 from raysteps.report.page import render_page
@@ -70,7 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 # What is compared.
 
 
-def _handed(project: Project, stubs: dict[Step, str], arguments: argparse.Namespace) -> list[Handed]:
+def _handed(project: Project, stubs: dict[Step, str], arguments: argparse.Namespace) -> list[ComparedSubmission]:
     """Of the class under their own names, of earlier terms with the folder before them."""
     every = read_steps(project)
     written = [path for path in (arguments.out, arguments.json) if path is not None]
@@ -80,7 +80,9 @@ def _handed(project: Project, stubs: dict[Step, str], arguments: argparse.Namesp
         name = folder.resolve().name
         places.append((folder, f"{name if often[name] == 1 else folder}/", "before"))
     return [
-        Handed(prefix + name, {step.id: data.decode("utf-8", "replace") for step, data in started.items()}, origin)
+        ComparedSubmission(
+            prefix + name, {step.id: data.decode("utf-8", "replace") for step, data in started.items()}, origin
+        )
         for folder, prefix, origin in places
         for name, started in started_of_class(folder, every, stubs, written).items()
     ]
@@ -130,7 +132,7 @@ def _pieces(source: str, marks: Sequence[tuple[int, int, int]]) -> list[Piece]:
     return [*found, Piece("\n… the rest is left out …")] if shown >= _MAX_FILE else found
 
 
-def _files(handed: Handed, words: Words, places: Sequence[tuple[int, int]]) -> dict[str, ShownFile]:
+def _files(handed: ComparedSubmission, words: TokenSequence, places: Sequence[tuple[int, int]]) -> dict[str, ShownFile]:
     """The files in which a passage lies; `places`: where each begins, and how many words it has."""
     found, offset = {}, 0
     for step, code in words.files.items():
@@ -165,7 +167,11 @@ def _bytes(shown: ShownPair) -> int:
 
 
 def _shown(
-    number: int, pair: Likeness, handed: Sequence[Handed], sides: Sequence[Words], found: list[Passage]
+    number: int,
+    pair: Likeness,
+    handed: Sequence[ComparedSubmission],
+    sides: Sequence[TokenSequence],
+    found: list[Passage],
 ) -> ShownPair:
     steps: list[tuple[ShownFile | None, ShownFile | None]] = []
     if number <= _MAX_CODE:
@@ -187,7 +193,7 @@ _HARDLY_READ = (
 )
 
 
-def _hardly_read(handed: Sequence[Handed], public: Collection[str]) -> list[tuple[int, str]]:
+def _hardly_read(handed: Sequence[ComparedSubmission], public: Collection[str]) -> list[tuple[int, str]]:
     """Submissions by their places, and the steps of them whose files are longer than what is compared."""
     files = [(at, step, text) for at, one in enumerate(handed) for step, text in one.sources.items()]
     return [(at, step) for at, step, text in files if not is_read_whole(text, public)]
@@ -195,7 +201,7 @@ def _hardly_read(handed: Sequence[Handed], public: Collection[str]) -> list[tupl
 
 def _page(
     project: Project,
-    handed: Sequence[Handed],
+    handed: Sequence[ComparedSubmission],
     shown: Sequence[ShownPair],
     compared: Comparison,
     hardly_read: Sequence[tuple[int, str]],
@@ -214,13 +220,13 @@ def _page(
         "groups": groups(compared.pairs),
         "hardly_read": hardly_read,
         "why_hardly": _HARDLY_READ,
-        "look_from": LOOK,
+        "look_from": REVIEW_THRESHOLD,
     }
     return render_page("similar", "Similar submissions", context, ("similar",), ("similar",))
 
 
 def _document(
-    handed: Sequence[Handed], steps: Collection[Step], shown: Sequence[ShownPair], compared: Comparison
+    handed: Sequence[ComparedSubmission], steps: Collection[Step], shown: Sequence[ShownPair], compared: Comparison
 ) -> Similarity:
     return checked(
         Similarity(
@@ -231,7 +237,7 @@ def _document(
             compared.amount,
             compared.median,
             compared.nine_in_ten,
-            LOOK,
+            REVIEW_THRESHOLD,
             [
                 SimilarPair(
                     handed[one.pair.first].name,
@@ -256,7 +262,9 @@ def _rank(likeness: float) -> str:
     return str(math.floor(100 * likeness))
 
 
-def _print(console: Console, handed: Sequence[Handed], shown: Sequence[ShownPair], compared: Comparison) -> None:
+def _print(
+    console: Console, handed: Sequence[ComparedSubmission], shown: Sequence[ShownPair], compared: Comparison
+) -> None:
     table = Table(title="The most alike", title_justify="left")
     for heading in ("likeness", "first", "second", "most alike in", "of first", "of second", "longest", "same files"):
         table.add_column(heading, justify="left" if heading in ("first", "second") else "right", overflow="fold")
@@ -269,9 +277,9 @@ def _print(console: Console, handed: Sequence[Handed], shown: Sequence[ShownPair
         )
     console.print(table)
     console.print(
-        f"{count(compared.look, 'pair')} of {compared.amount} from likeness {_rank(LOOK)} on, which is worth a look; "
-        f"half of all have {math.ceil(100 * compared.median)} at most. Likeness is from 0 to 100, and less where there "
-        "is little code; the shares are per cent of one's own code.",
+        f"{count(compared.look, 'pair')} of {compared.amount} from likeness {_rank(REVIEW_THRESHOLD)} on, which is "
+        f"worth a look; half of all have {math.ceil(100 * compared.median)} at most. Likeness is from 0 to 100, and "
+        "less where there is little code; the shares are per cent of one's own code.",
         highlight=False,
     )
     console.print("A high number is a reason to look and to talk, never a verdict.", highlight=False)
@@ -283,7 +291,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         refuse_to_write(path)
     stubs = {step: pristine_stub(project, step) for step in chosen_steps(project, arguments.steps)}
     handed = _handed(project, stubs, arguments)
-    kit = kits_ways(project, stubs, "before" if arguments.solutions else "background")
+    kit = known_solutions(project, stubs, "before" if arguments.solutions else "background")
     amount = len([*handed, *(kit if arguments.solutions else [])])
     if amount < 2 or not any(one.origin == "class" for one in handed):
         raise UsageError(f"{arguments.folder}: holds {count(len(handed), 'submission')} with work; expected two")
@@ -294,13 +302,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         )
     handed += kit
     public = public_names(project)
-    given = all_hashes(everybodys_code(project, stubs), public)
+    given = all_hashes(base_code(project, stubs), public)
     compared = compare(handed, public, given, _MAX_KNOWN)
     nobodys = frozenset(given.tolist())
 
     @lru_cache(maxsize=64)
-    def words(at: int) -> Words:
-        return Words(handed[at], public)
+    def words(at: int) -> TokenSequence:
+        return TokenSequence(handed[at], public)
 
     shown, room = [], _MAX_BYTES
     for number, pair in enumerate(compared.pairs[:_MAX_PAIRS], start=1):

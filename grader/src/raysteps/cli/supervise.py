@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from raysteps.classroom.jobs import gave_up
-from raysteps.classroom.process_tree import end_tree, remove
+from raysteps.classroom.process_tree import kill_process_tree, remove
 from raysteps.common.errors import GraderFault
 
 _PR_SET_PDEATHSIG = 1
@@ -57,7 +57,7 @@ def _wait(end: int, seconds: float, blocked: Collection[int]) -> bool:
         raise
 
 
-def supervised(work: Callable[[], int], seconds: float) -> int:
+def run_with_timeout(work: Callable[[], int], seconds: float) -> int:
     """The exit code of the work, which goes on in a child of this process; both come back from here. After so many
     seconds it is a fault of the grader, whose temporary files go as well."""
     if sys.platform != "linux":
@@ -78,7 +78,7 @@ def supervised(work: Callable[[], int], seconds: float) -> int:
         if not _wait(end, seconds, blocked):
             raise GraderFault(gave_up(seconds))
     finally:
-        end_tree(child)
+        kill_process_tree(child)
         _, status = os.waitpid(child, 0)
         remove(scratch)
     code = os.waitstatus_to_exitcode(status)

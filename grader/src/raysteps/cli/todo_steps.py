@@ -43,7 +43,7 @@ def last_written(project: Project) -> int:
     return last
 
 
-def usual_step(project: Project) -> int:
+def default_step(project: Project) -> int:
     """Of a picture that names none, as raytrace has it."""
     return min(_LAST_PICTURE, read_steps(project)[-1].index)
 
@@ -57,7 +57,7 @@ def last_value(words: Sequence[str], option: str) -> str | None:
 def wanted_step(project: Project, words: Sequence[str]) -> int:
     """Of the picture with these words; refuses what is no step."""
     if "--step" not in words:
-        return usual_step(project)
+        return default_step(project)
     word = last_value(words, "--step") or ""
     steps = read_steps(project)
     for other in outside_course(project):
@@ -76,7 +76,7 @@ def as_far_as_written(project: Project, words: Sequence[str]) -> tuple[list[str]
         last = last_written(project)
         if last == 0:
             return [], ""
-        if last < usual_step(project):
+        if last < default_step(project):
             said = f"--step {last}, the last that your steps can draw"
             more = ["--step", str(last)]
     return [*more, *without_tree(project, wanted_step(project, [*words, *more]), words)], said

@@ -77,7 +77,7 @@ def _closed_folder(error: OSError) -> str:
     return ""
 
 
-def place_of(error: UnicodeDecodeError) -> str:
+def decode_error_position(error: UnicodeDecodeError) -> str:
     """`LINE:COLUMN` of what is not in the encoding, in what was read."""
     before = error.object[: error.start].decode(error.encoding, "replace")
     return f"{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}"
@@ -89,7 +89,7 @@ UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # as its files begin
 def _no_text(error: UnicodeDecodeError) -> str:
     if error.object.startswith(UTF16_MARKS):
         return "it is text in UTF-16; save it in UTF-8"
-    line, _, column = place_of(error).partition(":")
+    line, _, column = decode_error_position(error).partition(":")
     return f"it is no text in UTF-8 (line {line}, column {column}); save it in UTF-8"
 
 

@@ -50,7 +50,7 @@ def wait_for_lock(handle: int) -> None:
 
 
 @contextmanager
-def one_at_a_time(lock: Path, wait: Callable[[], None] = lambda: None) -> Iterator[None]:
+def file_lock(lock: Path, wait: Callable[[], None] = lambda: None) -> Iterator[None]:
     """Waits until nobody else holds the lock; before that it calls `wait`."""
     lock.parent.mkdir(parents=True, exist_ok=True)
     with lock.open("a") as file:

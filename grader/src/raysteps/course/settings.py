@@ -16,7 +16,7 @@ from raysteps.common.text import belongs_above, clean, did_you_mean
 from raysteps.course.project import Project
 
 FILE = "course.toml"
-PLACE = "RAYSTEPS_COURSE"  # names another file: a seed that is secret need not lie in a repository
+COURSE_VARIABLE = "RAYSTEPS_COURSE"  # names another file: a seed that is secret need not lie in a repository
 USUAL_SEED = 1
 _LONGEST = 80  # characters of what was found
 
@@ -84,11 +84,11 @@ _EXPECTED = {
 
 
 def _path(project: Project) -> Path | None:
-    named = os.environ.get(PLACE, "")
+    named = os.environ.get(COURSE_VARIABLE, "")
     if named:
         path = Path(named)
         if not path.is_file():
-            raise UsageError(f"{PLACE}={named}: is not there; expected a {FILE}, or unset the variable")
+            raise UsageError(f"{COURSE_VARIABLE}={named}: is not there; expected a {FILE}, or unset the variable")
         return path
     path = project.root / FILE
     return path if path.is_file() else None

@@ -22,7 +22,7 @@ def _listed(root: Path, *which: str) -> list[PurePosixPath] | None:
     return [PurePosixPath(name) for name in outcome.stdout.split("\0") if name]
 
 
-def places(root: Path, folders: Iterable[str] = (".",)) -> list[PurePosixPath]:
+def list_files(root: Path, folders: Iterable[str] = (".",)) -> list[PurePosixPath]:
     """What git tracks, and new files that it does not ignore; without git, files and folders in these folders."""
     listed = _listed(root, "--cached", "--others")
     if listed is not None:
@@ -31,6 +31,6 @@ def places(root: Path, folders: Iterable[str] = (".",)) -> list[PurePosixPath]:
     return [PurePosixPath(path.relative_to(root).as_posix()) for path in found]
 
 
-def untracked(root: Path) -> set[str]:
+def untracked_files(root: Path) -> set[str]:
     """New files that git does not ignore; none where there is no git."""
     return {place.as_posix() for place in _listed(root, "--others") or ()}

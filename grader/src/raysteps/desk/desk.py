@@ -17,17 +17,17 @@ from raysteps.classroom.annotations import (
     threads,
     written_serial,
 )
-from raysteps.classroom.class_document import Standings, still_true
+from raysteps.classroom.class_document import CurrentResults, submissions_if_current
 from raysteps.classroom.class_files import CLASS_JSON
-from raysteps.classroom.database import FILE, ClassDatabase, Source, telling_of
+from raysteps.classroom.database import FILE, ClassDatabase, Source, explained_sqlite_errors
 from raysteps.classroom.review import line_now, review_results
 from raysteps.common.documents import Malformed, convert, plain
 from raysteps.common.errors import RaystepsError, UsageError
 from raysteps.common.local_server import HTML, JSON, LocalHandler, LocalServer
 from raysteps.common.text import clean, number, plain_letters, printable
 from raysteps.course.manifest import Step
+from raysteps.desk.annotation_files import AnnotationDraft, AnnotationWriter
 from raysteps.desk.file_writer import FileWriter, check_folder
-from raysteps.desk.said import Said, Scribe
 from raysteps.report.class_overview import marks_of
 from raysteps.report.class_page import STATUSES, found_by, step_cell, who_and_more
 from raysteps.report.page import PictureData, picture_of, render_page
@@ -132,10 +132,10 @@ class Desk:
         self._author = author
         self._rows: dict[str, tuple[tuple[int, int], Row]] = {}
         self._mistakes: dict[tuple[str, str], int] = {}
-        self._standings: Standings | None = None
+        self._standings: CurrentResults | None = None
         self._run: tuple[Any, ...] = ()
         check_folder(out)
-        with telling_of(out / FILE, "used"):
+        with explained_sqlite_errors(out / FILE, "used"):
             self._database = ClassDatabase(out)
         if self._database.connection.execute("SELECT 1 FROM runs").fetchone() is None:
             self._database.close()
@@ -162,11 +162,11 @@ class Desk:
         )
         return {row["name"]: (row["run"], row["serial"]) for row in rows}
 
-    def _current(self) -> Standings:
+    def _current(self) -> CurrentResults:
         """Made anew when a run has begun or ended: roster and late policy may be others."""
         run = tuple(self._query("SELECT number, state FROM runs ORDER BY number DESC LIMIT 1")[0])
         if self._standings is None or run != self._run:
-            self._standings, self._run = Standings(self._database), run
+            self._standings, self._run = CurrentResults(self._database), run
             self._rows.clear()
         return self._standings
 
@@ -177,7 +177,9 @@ class Desk:
         connection = self._database.connection
         if written_serial(connection) != latest_serial(connection):
             return
-        for name, one in still_true(self._database, self._out / CLASS_JSON, standings.last["number"]).items():
+        for name, one in submissions_if_current(
+            self._database, self._out / CLASS_JSON, standings.last["number"]
+        ).items():
             if name in stamps and one.run == (stamps[name][0] or None):
                 self._keep(one, stamps[name])
 
@@ -321,11 +323,11 @@ class Desk:
     def say(self, name: str, document: object) -> View:
         """Writes it, and gives the submission as it is then."""
         try:
-            said = convert(document, Said)
+            said = convert(document, AnnotationDraft)
         except Malformed as error:
             raise UsageError(str(error)) from error
         with self._lock:
-            Scribe(self._database, name).write(said)
+            AnnotationWriter(self._database, name).write(said)
         self.writer.call()
         return self.submission(name)
 

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Literal
 
 from raysteps.classroom.annotations import annotated, latest_serial, written_serial
-from raysteps.classroom.class_document import Standings, class_document, still_true
+from raysteps.classroom.class_document import CurrentResults, class_document, submissions_if_current
 from raysteps.classroom.class_files import CLASS_JSON, write_class, write_submission, write_tables
-from raysteps.classroom.database import FILE, LOCK, ClassDatabase, open_database, telling_of
+from raysteps.classroom.database import FILE, LOCK, ClassDatabase, explained_sqlite_errors, open_database
 from raysteps.common.errors import UsageError
-from raysteps.common.files import one_at_a_time, try_lock
+from raysteps.common.files import file_lock, try_lock
 
 _DESK_LOCK = "desk.lock"
 _AGAIN_SECONDS = 2.0  # to ask whether that has ended
@@ -23,7 +23,7 @@ State = Literal["written", "writing", "waiting", "failed"]
 def may_write(out: Path) -> Iterator[bool]:
     """Whether nothing else is at work there, such as a grade-class or a sending of mail. While this lasts none begins,
     and no other desk writes."""
-    with one_at_a_time(out / _DESK_LOCK), (out / LOCK).open("a") as file:
+    with file_lock(out / _DESK_LOCK), (out / LOCK).open("a") as file:
         try:
             is_free = try_lock(file.fileno(), shared=True)
         except OSError:
@@ -42,7 +42,7 @@ def write_all(out: Path) -> bool:
     check_folder(out)
     with may_write(out) as is_free:
         if is_free:
-            with telling_of(out / FILE, "used"), closing(ClassDatabase(out)) as database:
+            with explained_sqlite_errors(out / FILE, "used"), closing(ClassDatabase(out)) as database:
                 write_class(database, out)
         return is_free
 
@@ -110,13 +110,13 @@ class FileWriter:
         serial, before = latest_serial(database.connection), written_serial(database.connection)
         if serial == before:
             return
-        standings = Standings(database)
+        standings = CurrentResults(database)
         changed = annotated(database, since=before)
         for name in sorted(changed):
             write_submission(database, self._out, standings.named(name), standings.course, standings.manifests)
         with self._changed:
             is_busy = self._is_due  # then the tables would be old at once
         if not is_busy:
-            kept = still_true(database, self._out / CLASS_JSON, standings.last["number"])
+            kept = submissions_if_current(database, self._out / CLASS_JSON, standings.last["number"])
             known = {name: one for name, one in kept.items() if name not in changed}
             write_tables(database, self._out, class_document(database, known), serial)

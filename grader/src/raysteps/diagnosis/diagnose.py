@@ -9,11 +9,11 @@ from raysteps.common.text import join_and, join_some
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import read_mutants
 from raysteps.course.stubs import placed_tokens
-from raysteps.diagnosis.evidence import Evidence, Picture, Questions, differing, listen, questions_of
-from raysteps.diagnosis.matching import match, name_mistakes, spoils
+from raysteps.diagnosis.evidence import Evidence, Picture, Questions, collect_wrong_answers, differing, questions_of
+from raysteps.diagnosis.matching import match, name_mistakes, shows_in
 from raysteps.diagnosis.mutant_fingerprints import learned_fingerprints, mutant_fingerprints
 from raysteps.diagnosis.pixel_regions import Terms, findings
-from raysteps.diagnosis.transforms import BEFORE, Transformed, in_words, transformation_of
+from raysteps.diagnosis.transforms import BEFORE, TransformedPicture, in_words, transformation_of
 from raysteps.images.compare import Pixels
 from raysteps.images.render import reference_picture
 from raysteps.judge.plan import Plan
@@ -56,7 +56,7 @@ _OF_VECTORS = {
 _OF_ALL_PICTURES = {"shifted-by-one", "shifted-by-half"}
 
 
-def _name(changed: Transformed, step: Step, picture: Picture) -> str:
+def _name(changed: TransformedPicture, step: Step, picture: Picture) -> str:
     """Where colours are directions, another order of the channels is another order of the axes."""
     shows_vectors = step.index == 1 or "normals" in picture.case.args
     return _OF_VECTORS.get(changed.id, changed.id) if shows_vectors else changed.id
@@ -113,7 +113,7 @@ _IS_NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 @dataclass(frozen=True)
-class Unset:
+class UninitializedVariable:
     """A variable that is declared without a value. `function`: the outermost that it is in, as the source calls it."""
 
     name: str
@@ -137,7 +137,7 @@ def _declared(statement: list[str]) -> list[str]:
     return [*names] if set(signs) <= {","} and all(map(_IS_NAME.fullmatch, names)) else []
 
 
-def declared_without_value(source: str, file: str) -> list[Unset]:
+def uninitialized_variables(source: str, file: str) -> list[UninitializedVariable]:
     """In the functions of a source. What lies in a class or outside of all is 0, or set where an object is made."""
     source = source.replace("\r\n", "\n")
     found, statement, scopes = [], list[str](), list[str]()
@@ -150,7 +150,7 @@ def declared_without_value(source: str, file: str) -> list[Unset]:
             continue
         if text == ";" and scopes and scopes[-1]:
             function = next(filter(None, scopes))
-            found += [Unset(name, f"{file}:{line}", function) for name in _declared(statement)]
+            found += [UninitializedVariable(name, f"{file}:{line}", function) for name in _declared(statement)]
         if text == "{":
             scopes.append(_scope(statement, scopes))
         elif text == "}" and scopes:
@@ -177,15 +177,15 @@ _OF_GLM = "Look for a declaration without a value: `glm::vec3 sum;` holds anythi
 _MAX_NAMED = 3
 
 
-def _warned(step: Step, log: str) -> Unset | None:
+def _warned(step: Step, log: str) -> UninitializedVariable | None:
     """The variable and its place, where it is declared if that is told."""
     found = [one for one in _WARNED.finditer(log) if one["file"] in step.files]
     one = next((one for one in found if one["declared"]), found[0] if found else None)
-    return None if one is None else Unset(one["name"], f"{one['file']}:{one['line']}")
+    return None if one is None else UninitializedVariable(one["name"], f"{one['file']}:{one['line']}")
 
 
 def used_without_value(
-    step: Step, result: StepResult, about: Mapping[str, Sequence[str]], unset: Sequence[Unset]
+    step: Step, result: StepResult, about: Mapping[str, Sequence[str]], unset: Sequence[UninitializedVariable]
 ) -> Iterator[Diagnosis]:
     """That some function used such a variable: by what it gave. `about`: the functions of each test; `unset`: what may
     be meant."""
@@ -209,7 +209,7 @@ def warned_of(step: Step, result: StepResult) -> Iterator[Diagnosis]:
         yield Diagnosis("finding", _PERHAPS, title, hint="Give it a value where it is declared.")
 
 
-def asked_about(unset: Sequence[Unset]) -> Iterator[Diagnosis]:
+def asked_about(unset: Sequence[UninitializedVariable]) -> Iterator[Diagnosis]:
     """Whether such variables are set later, which nobody can see from outside: a bool is right half of the time."""
     if unset:
         named = join_some(list(map(str, unset)), _MAX_NAMED)
@@ -246,7 +246,7 @@ class Diagnostician:
         questions = self._questions(result, unfinished, spoilt_functions)
         known = learned_fingerprints(self.kit, self.step) if questions else {}
         mistakes = [one.answers for one in known.values()]
-        answers = listen(questions, self.ask, _MAX_SECONDS, mistakes) if self.ask is not None else {}
+        answers = collect_wrong_answers(questions, self.ask, _MAX_SECONDS, mistakes) if self.ask is not None else {}
         passed = {item.name for item in result.hidden if item.kind == "function" and item.passed}
         apart = passed & set(spoilt_functions)
         named, spoilt = self._mistakes(Evidence(questions, answers, pictures, passed - apart, apart))
@@ -258,7 +258,7 @@ class Diagnostician:
         found = list(transformations(self.kit, self.step, open_, pictures))
         told = {name for one in found for name in one.seen_in}
         rest = {name: picture for name, picture in open_.items() if name not in told}
-        unset = [one for one in declared_without_value(source, self.step.file) if one.function not in passed]
+        unset = [one for one in uninitialized_variables(source, self.step.file) if one.function not in passed]
         first = list(used_without_value(self.step, result, self.kit.tests.get(self.step.id, {}), unset))
         perhaps = [] if first else list(warned_of(self.step, result)) or list(asked_about(unset))
         return [*first, *named, *found, *perhaps, *findings(self.kit, self.step, rest)]
@@ -276,7 +276,7 @@ class Diagnostician:
             name
             for one in named
             for name, picture in evidence.pictures.items()
-            if name in one.explains or spoils(known[one.mutant.id].pictures.get(name), picture)
+            if name in one.explains or shows_in(known[one.mutant.id].pictures.get(name), picture)
         }
         return [one.diagnosis() for one in named], spoilt
 

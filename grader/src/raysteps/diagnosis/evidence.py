@@ -12,15 +12,15 @@ import numpy as np
 import numpy.typing as npt
 
 from raysteps.course.manifest import ImageCase, Step
-from raysteps.images.compare import TOLERANCE, Pixels, gaps, is_flat
+from raysteps.images.compare import TOLERANCE, Pixels, is_flat, pixel_differences
 from raysteps.judge.answers import Answer, PlainlyWrong
 from raysteps.judge.bvhs import BVH
 from raysteps.judge.functions import Case, Function, functions_of
 from raysteps.judge.hidden_tests import make_cases, reference_lines
-from raysteps.judge.octrees import TREE
+from raysteps.judge.octrees import OCTREE
 from raysteps.judge.plan import Plan
 from raysteps.judge.protocol import ProtocolError
-from raysteps.judge.statistics import DECILES, Off, Uneven
+from raysteps.judge.statistics import DECILES, RatioProblem, UnevenProblem
 from raysteps.judge.worker import Ask, Reply, TimeBudget, ask_worker, reference_answers
 from raysteps.sandbox.task import TaskResult
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -33,7 +33,7 @@ _LONGEST = 6000  # characters; of a longer answer its hash will do
 
 
 @dataclass(frozen=True)
-class ObservedAnswers:
+class WrongAnswer:
     """A wrong answer. `problem` is what the judge finds wrong; not `known`: it was never asked. `boxes`: of a tree.
     `spread`: how many of the numbers drawn by chance fell into each bar, where that is the problem, and whether they go
     round. `times`: how many times what they should be the numbers are, where they are drawn by chance or means.
@@ -49,8 +49,8 @@ class ObservedAnswers:
     plainly_wrong: bool = False
 
 
-Answers: TypeAlias = Mapping[
-    str, Mapping[int, ObservedAnswers]
+WrongAnswers: TypeAlias = Mapping[
+    str, Mapping[int, WrongAnswer]
 ]  # by function, then by number of the case; only what is not right
 
 
@@ -87,13 +87,13 @@ def _kept(line: str) -> str:
 
 
 def _said(
-    function: Function, case: Case, right: str, reply: Reply, before: Mapping[str, ObservedAnswers]
-) -> ObservedAnswers | None:
+    function: Function, case: Case, right: str, reply: Reply, before: Mapping[str, WrongAnswer]
+) -> WrongAnswer | None:
     """None for a right answer."""
     if not reply.asked:
-        return ObservedAnswers("", "", known=False)
+        return WrongAnswer("", "", known=False)
     if reply.outcome != "ok":
-        return ObservedAnswers("", reply.outcome)
+        return WrongAnswer("", reply.outcome)
     if reply.line == right:
         return None
     line = _kept(reply.line)
@@ -102,16 +102,16 @@ def _said(
     problem = case.verdict(function.answer, right, reply.line).problem
     if not problem:
         return None
-    spread = tuple(problem.histogram.counts) if isinstance(problem, Uneven) else ()
-    goes_round = isinstance(problem, Uneven) and problem.goes_round
-    times = problem.times if isinstance(problem, Off) else ()
+    spread = tuple(problem.histogram.counts) if isinstance(problem, UnevenProblem) else ()
+    goes_round = isinstance(problem, UnevenProblem) and problem.goes_round
+    times = problem.times if isinstance(problem, RatioProblem) else ()
     boxes, plainly_wrong = _boxes(function, reply.line), isinstance(problem, PlainlyWrong)
-    return ObservedAnswers(line, str(problem), True, boxes, spread, goes_round, times, plainly_wrong)
+    return WrongAnswer(line, str(problem), True, boxes, spread, goes_round, times, plainly_wrong)
 
 
 def _boxes(function: Function, line: str) -> int:
     """How many a tree has; 0 for what is no tree."""
-    if function.answer not in (TREE, BVH):
+    if function.answer not in (OCTREE, BVH):
         return 0
     try:
         return len(function.answer.parse(line).nodes)
@@ -119,11 +119,13 @@ def _boxes(function: Function, line: str) -> int:
         return 0
 
 
-def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float, mistakes: Collection[Answers] = ()) -> Answers:
+def collect_wrong_answers(
+    questions: Mapping[str, Questions], ask: Ask, seconds: float, mistakes: Collection[WrongAnswers] = ()
+) -> WrongAnswers:
     """Asks a program. `seconds`: the limit of one run of its worker. `mistakes`: what others answered to the same; who
     answers as one of them has the same problem, and nobody has to judge that again."""
     budget = TimeBudget(seconds, len(questions))
-    heard: dict[str, dict[int, ObservedAnswers]] = {}
+    heard: dict[str, dict[int, WrongAnswer]] = {}
     for name, known in questions.items():
         replies = ask_worker(ask, known.cases, budget).replies
         before = _by_line(mistakes, name, len(known.cases))
@@ -133,9 +135,9 @@ def listen(questions: Mapping[str, Questions], ask: Ask, seconds: float, mistake
     return heard
 
 
-def _by_line(mistakes: Collection[Answers], function: str, cases: int) -> list[dict[str, ObservedAnswers]]:
+def _by_line(mistakes: Collection[WrongAnswers], function: str, cases: int) -> list[dict[str, WrongAnswer]]:
     """The wrong answers to each case of a function."""
-    found: list[dict[str, ObservedAnswers]] = [{} for _ in range(cases)]
+    found: list[dict[str, WrongAnswer]] = [{} for _ in range(cases)]
     for answers in mistakes:
         for number, one in answers.get(function, {}).items():
             if one.line:
@@ -148,7 +150,7 @@ Mask = npt.NDArray[np.bool_]
 
 def differing(one: Pixels, other: Pixels, tolerance: int = TOLERANCE) -> Mask:
     """The pixels in which two pictures of one size are not the same."""
-    mask: Mask = gaps(one, other) > tolerance
+    mask: Mask = pixel_differences(one, other) > tolerance
     return mask
 
 
@@ -174,7 +176,7 @@ class Picture:
         return not is_flat(self.mine) or is_flat(self.reference)
 
 
-def _is_constant(questions: Questions, mine: Mapping[int, ObservedAnswers]) -> bool:
+def _is_constant(questions: Questions, mine: Mapping[int, WrongAnswer]) -> bool:
     """Whether one answer to everything would be wrong and right in the same cases, with the same wrong answers."""
     lines = {one.line for one in mine.values()}
     if len(lines) != 1 or any(not line or line.startswith("#") for line in lines):
@@ -194,7 +196,7 @@ class Evidence:
     ones before them."""
 
     questions: Mapping[str, Questions]
-    answers: Answers
+    answers: WrongAnswers
     pictures: Mapping[str, Picture]
     right: Collection[str] = ()
     right_apart: Collection[str] = ()
@@ -358,16 +360,14 @@ def _times_alike(one: Sequence[float], other: Sequence[float]) -> bool:
     return is_near and more <= _TIMES_APART * less + chance
 
 
-def answer_similarity(
-    function: Function, case: Case, right: str, mistake: ObservedAnswers, mine: ObservedAnswers
-) -> float:
+def answer_similarity(function: Function, case: Case, right: str, mistake: WrongAnswer, mine: WrongAnswer) -> float:
     """From 0 to 1, for two answers that are both wrong. `right`: what the reference answers."""
     if mistake.line == mine.line and mistake.problem == mine.problem:
         return 1.0
     same_problem = mistake.problem == mine.problem
     if not mistake.line or not mine.line:
         return 0.0  # one of them gave no answer
-    if function.answer in (TREE, BVH):  # everybody divides space in another way
+    if function.answer in (OCTREE, BVH):  # everybody divides space in another way
         return 1.0 if same_problem and _as_many(mistake.boxes, mine.boxes) else 0.0
     same_problem = same_problem and _spread_alike(mistake.spread, mine.spread, goes_round=mine.goes_round)
     same_problem = same_problem and _times_alike(mistake.times, mine.times)

@@ -5,19 +5,19 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from raysteps.course.mutants import Mutant
-from raysteps.diagnosis.evidence import Evidence, ObservedAnswers, Picture, Questions, answer_similarity, differing
+from raysteps.diagnosis.evidence import Evidence, Picture, Questions, WrongAnswer, answer_similarity, differing
 from raysteps.diagnosis.mutant_fingerprints import MutantFingerprint
 from raysteps.images.compare import Pixels
 from raysteps.judge.bvhs import BVH
 from raysteps.judge.cases.octree_boxes import NO_PART
 from raysteps.judge.hits import NOTHING_FOUND
-from raysteps.judge.octrees import TREE
+from raysteps.judge.octrees import OCTREE
 from raysteps.results.model import Diagnosis
 
-GOOD = 0.7  # of the wrong cases of a function: from there on a mistake explains it
+MIN_SCORE = 0.7  # of the wrong cases of a function: from there on a mistake explains it
 _GOOD_PICTURE = 0.8  # of the wrong pixels
 _GOOD_WITH_PICTURES = 0.55  # of the cases, where the mistake explains all pictures that are wrong
-GOOD_WEAK = 0.95  # of the cases, where wrong answers hardly differ and no picture without a tree is explained
+MIN_WEAK_SCORE = 0.95  # of the cases, where wrong answers hardly differ and no picture without a tree is explained
 _NEVER = 2.0  # where, besides, the mistake would draw other pictures
 _GOOD_AGAINST_PICTURES = 0.85  # of the cases, where pictures are wrong and the mistake explains none
 _ANOTHER = 0.2  # of a picture, or of cases where wrong answers hardly differ: below, that is wrong in another way
@@ -49,7 +49,7 @@ class Agreement:
         """The score below which the student's function, if the mistake sits in it, is wrong in another way."""
         if self.weak:
             return _ANOTHER
-        return GOOD_WEAK if self.constant else _NOT_AGAINST
+        return MIN_WEAK_SCORE if self.constant else _NOT_AGAINST
 
     @property
     def score(self) -> float:
@@ -93,19 +93,19 @@ class Match:
 
     def _least(self, one: Agreement, told: Collection[str]) -> float:
         if one.constant and not one.weak:
-            return GOOD_WEAK
+            return MIN_WEAK_SCORE
         drawn = self._drawn()
         telling = drawn.keys() & self.telling
         if one.weak:
             plain = [score for name, score in self.pictures.items() if name in self.telling - self.in_trees - set(told)]
             if plain and max(plain) < _ANOTHER:
                 return _NEVER
-            return GOOD if telling - self.in_trees else GOOD_WEAK
+            return MIN_SCORE if telling - self.in_trees else MIN_WEAK_SCORE
         if self.telling - set(told) and not telling:
             return _GOOD_AGAINST_PICTURES
-        return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else GOOD
+        return _GOOD_WITH_PICTURES if drawn and len(drawn) == len(self.pictures) else MIN_SCORE
 
-    def is_another(self) -> bool:
+    def is_different_mistake(self) -> bool:
         """Whether the function in which the mistake sits is wrong in another way, whatever those that call it look
         like. Or it is right, and those that the mistake explains only find nothing."""
         own = self.functions.get(self.mutant.function)
@@ -136,8 +136,8 @@ class Match:
 
 def agreement(
     questions: Questions,
-    mistake: Mapping[int, ObservedAnswers],
-    mine: Mapping[int, ObservedAnswers],
+    mistake: Mapping[int, WrongAnswer],
+    mine: Mapping[int, WrongAnswer],
     constant: bool = False,
 ) -> Agreement:
     """Cases of which nobody knows the answer are left out."""
@@ -149,7 +149,7 @@ def agreement(
         for number in both
     }
     wrong, other = frozenset(mine.keys() - unknown), frozenset(mistake.keys() - unknown)
-    weak = questions.function.yes_or_no or questions.function.answer in (TREE, BVH)
+    weak = questions.function.yes_or_no or questions.function.answer in (OCTREE, BVH)
     empty = sum(mine[number].problem in (NOTHING_FOUND, NO_PART) for number in both) / len(both) if both else 0.0
     return Agreement(wrong, other, alike, weak, empty, constant)
 
@@ -164,7 +164,7 @@ def picture_score(mistake: Pixels | None, picture: Picture) -> float:
     return float((wrong & ~differing(mistake, picture.mine)).sum() / wrong.sum())
 
 
-def spoils(mistake: Pixels | None, picture: Picture) -> bool:
+def shows_in(mistake: Pixels | None, picture: Picture) -> bool:
     """Whether the mistake shows in this picture."""
     if mistake is None or mistake.shape != picture.reference.shape:
         return True
@@ -191,8 +191,8 @@ def match(mutant: Mutant, fingerprint: MutantFingerprint, evidence: Evidence) ->
             found.pictures[name] = picture_score(drawn, picture)
             found.telling |= {name} if picture.says_something else set()
             found.in_trees |= {name} if picture.case.has_tree else set()
-            found.spoilt |= {name} if spoils(drawn, picture) else set()
-        elif spoils(drawn, picture):
+            found.spoilt |= {name} if shows_in(drawn, picture) else set()
+        elif shows_in(drawn, picture):
             found.against.append(name)
             found.spoils_right = True
             is_drawn = drawn is not None and drawn.shape == picture.reference.shape
@@ -237,7 +237,7 @@ def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | 
         if one.mutant.id != other.mutant.id and not {one.mutant.id, other.mutant.id} <= losing
     ]
     best = max(scored, key=lambda item: item[0], default=None)
-    least = GOOD_WEAK if any(match.functions[function].weak for match in here) else GOOD
+    least = MIN_WEAK_SCORE if any(match.functions[function].weak for match in here) else MIN_SCORE
     return best[1] if best is not None and best[0] >= least else None
 
 
@@ -290,7 +290,7 @@ class _Open:
         """Above 0 for a mistake that can be named: by a function, or by pictures alone."""
         explained = self.explained_by(match)
         functions = explained.keys() & match.functions.keys()
-        if not explained or match.is_another() or not (functions or match.named_by_pictures()):
+        if not explained or match.is_different_mistake() or not (functions or match.named_by_pictures()):
             return 0.0
         worth = sum(score * (_PICTURE if name in match.pictures else 1.0) for name, score in explained.items())
         worth -= _AGAINST * min(len(match.against), _MAX_AGAINST)

@@ -14,11 +14,11 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import one_at_a_time, write_bytes
+from raysteps.common.files import file_lock, write_bytes
 from raysteps.common.text import shorten
 from raysteps.course.manifest import Step
 from raysteps.course.mutants import Mutant, reference_source
-from raysteps.diagnosis.evidence import Answers, ObservedAnswers, listen, questions_of
+from raysteps.diagnosis.evidence import WrongAnswer, WrongAnswers, collect_wrong_answers, questions_of
 from raysteps.images.compare import Pixels
 from raysteps.images.render import render
 from raysteps.judge.plan import Plan
@@ -26,7 +26,7 @@ from raysteps.judge.worker import ask_student
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain.compile import Program, StudentBuild
-from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback, paced
+from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback, rate_limited
 from raysteps.toolchain.limits import limits_of
 
 _FACTS = "answers"
@@ -36,14 +36,14 @@ _FACTS = "answers"
 class MutantFingerprint:
     """Of one mistake: its wrong answers, and its pictures by name where it makes any."""
 
-    answers: Answers
+    answers: WrongAnswers
     pictures: Mapping[str, Pixels]
 
 
-Known: TypeAlias = Mapping[str, MutantFingerprint]  # by the name of the form of a mistake
+Fingerprints: TypeAlias = Mapping[str, MutantFingerprint]  # by the name of the form of a mistake
 
 
-def write_known(path: Path, known: Known) -> None:
+def write_fingerprints(path: Path, known: Fingerprints) -> None:
     """One file, complete or not there."""
     answers = {
         mistake: {
@@ -60,7 +60,7 @@ def write_known(path: Path, known: Known) -> None:
     write_bytes(path, data.getvalue())
 
 
-def read_known(path: Path) -> Known | None:
+def read_fingerprints(path: Path) -> Fingerprints | None:
     """None where there is no such file, or none that can be read."""
     try:
         with np.load(path, allow_pickle=False) as arrays:
@@ -72,7 +72,7 @@ def read_known(path: Path) -> Known | None:
         mistake: MutantFingerprint(
             {
                 function: {
-                    int(number): ObservedAnswers(**said | {name: tuple(said[name]) for name in ("spread", "times")})
+                    int(number): WrongAnswer(**said | {name: tuple(said[name]) for name in ("spread", "times")})
                     for number, said in wrong.items()
                 }
                 for function, wrong in functions.items()
@@ -119,8 +119,8 @@ class _Learner:
         answers = self._answers(program("worker")) if self._questions else {}
         return MutantFingerprint(answers, self._pictures(program("raytrace")))
 
-    def _answers(self, worker: Program) -> Answers:
-        return listen(self._questions, ask_student(self._air, worker, self._limits), _SECONDS)
+    def _answers(self, worker: Program) -> WrongAnswers:
+        return collect_wrong_answers(self._questions, ask_student(self._air, worker, self._limits), _SECONDS)
 
     def _pictures(self, raytrace: Program) -> dict[str, Pixels]:
         """Those that it makes."""
@@ -134,11 +134,11 @@ class _Learner:
 
 
 @lru_cache(maxsize=16)
-def _read(path: Path, _changed: int) -> Known | None:
-    return read_known(path)
+def _read(path: Path, _changed: int) -> Fingerprints | None:
+    return read_fingerprints(path)
 
 
-def _found(path: Path) -> Known | None:
+def _found(path: Path) -> Fingerprints | None:
     try:
         return _read(path, path.stat().st_mtime_ns)
     except OSError:
@@ -154,7 +154,7 @@ def are_learned(kit: BuiltKit, step: Step) -> bool:
     return _place(kit, step).is_file()
 
 
-def learned_fingerprints(kit: BuiltKit, step: Step) -> Known:
+def learned_fingerprints(kit: BuiltKit, step: Step) -> Fingerprints:
     """Those of the mistakes that were learned already."""
     return _found(_place(kit, step)) or {}
 
@@ -166,25 +166,25 @@ def mutant_fingerprints(
     mutants: Sequence[Mutant],
     say: ProgressCallback,
     sandbox: Sandbox | None = None,
-) -> Known:
+) -> Fingerprints:
     """By the names of their forms. A mistake of the catalogue that does not build is the kit's fault."""
     path = _place(kit, step)
     known = _found(path)
     if known is None:
         what = f"learning the known mistakes of {step.number} (once)"
-        with one_at_a_time(path.with_suffix(".lock"), lambda: say(f"{what}: another command does it")):
+        with file_lock(path.with_suffix(".lock"), lambda: say(f"{what}: another command does it")):
             known = _found(path)
             if known is None:
                 say(what)
-                far = paced(lambda text: say(f"{what}: {text}"))
+                far = rate_limited(lambda text: say(f"{what}: {text}"))
                 known = _learn(kit, step, plan, mutants, sandbox or LimitsOnly(), far)
-                write_known(path, known)
+                write_fingerprints(path, known)
     return known
 
 
 def _learn(
     kit: BuiltKit, step: Step, plan: Plan | None, mutants: Sequence[Mutant], sandbox: Sandbox, far: ProgressCallback
-) -> Known:
+) -> Fingerprints:
     """`far` hears of each that is done."""
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder, ThreadPoolExecutor(_AT_A_TIME) as pool:
         learner = _Learner(kit, step, plan, Path(folder), sandbox)

@@ -23,7 +23,7 @@ _DARK, _BRIGHT = 24, 250  # levels between which a factor can be measured
 
 
 @dataclass(frozen=True)
-class Transformed:
+class TransformedPicture:
     """The reference's picture after something happened to it. `tolerance`: levels by which rounding may be off."""
 
     id: str
@@ -38,16 +38,16 @@ def _levels(values: Levels) -> Pixels:
     return pixels
 
 
-def _turned(picture: Picture) -> Iterator[Transformed]:
+def _turned(picture: Picture) -> Iterator[TransformedPicture]:
     reference = picture.reference
-    yield Transformed("upside-down", reference[::-1])
-    yield Transformed("mirrored", reference[:, ::-1])
-    yield Transformed("half-turn", reference[::-1, ::-1])
+    yield TransformedPicture("upside-down", reference[::-1])
+    yield TransformedPicture("mirrored", reference[:, ::-1])
+    yield TransformedPicture("half-turn", reference[::-1, ::-1])
     if reference.shape[0] == reference.shape[1]:
-        yield Transformed("transposed", reference.transpose(1, 0, 2))
+        yield TransformedPicture("transposed", reference.transpose(1, 0, 2))
 
 
-def _shifted(picture: Picture) -> Iterator[Transformed]:
+def _shifted(picture: Picture) -> Iterator[TransformedPicture]:
     """By a whole pixel, and by half a one; the border, of which nothing is known, is taken from the student's."""
     reference = picture.reference.astype(np.float64)
     for name, down, across in (("x", 0, 1), ("x", 0, -1), ("y", 1, 0), ("y", -1, 0), ("xy", 1, 1), ("xy", -1, -1)):
@@ -56,7 +56,7 @@ def _shifted(picture: Picture) -> Iterator[Transformed]:
             whole = _levels(values)
             for border in ((0, ...), (-1, ...), (slice(None), 0), (slice(None), -1)):
                 whole[border] = picture.mine[border]
-            yield Transformed(f"shifted-by-{title}", whole, tolerance, detail=name)
+            yield TransformedPicture(f"shifted-by-{title}", whole, tolerance, detail=name)
 
 
 def _half(reference: Levels, down: int, across: int) -> Levels:
@@ -64,25 +64,27 @@ def _half(reference: Levels, down: int, across: int) -> Levels:
     return (once + np.roll(once, across, axis=1)) / 2 if across else once
 
 
-def _recoloured(picture: Picture) -> Iterator[Transformed]:
+def _recoloured(picture: Picture) -> Iterator[TransformedPicture]:
     reference = picture.reference
-    yield Transformed("negative", 255 - reference, everywhere=False)
+    yield TransformedPicture("negative", 255 - reference, everywhere=False)
     for order in permutations(range(3)):
         if order != (0, 1, 2):
             name = "red-and-blue-swapped" if order == (2, 1, 0) else "channels-permuted"
             letters = "".join("RGB"[channel] for channel in order)
-            yield Transformed(name, reference[..., list(order)], everywhere=False, detail=letters)
+            yield TransformedPicture(name, reference[..., list(order)], everywhere=False, detail=letters)
     share = reference.astype(np.float64) / 255
-    yield Transformed("gamma-applied", _levels(255 * share ** (1 / _GAMMA)), 4, everywhere=False)
-    yield Transformed("gamma-applied", _levels(255 * np.sqrt(share)), 4, everywhere=False)
-    yield Transformed("gamma-removed", _levels(255 * share**_GAMMA), 3, everywhere=False)
-    yield Transformed("gamma-removed", _levels(255 * share**2), 3, everywhere=False)
+    yield TransformedPicture("gamma-applied", _levels(255 * share ** (1 / _GAMMA)), 4, everywhere=False)
+    yield TransformedPicture("gamma-applied", _levels(255 * np.sqrt(share)), 4, everywhere=False)
+    yield TransformedPicture("gamma-removed", _levels(255 * share**_GAMMA), 3, everywhere=False)
+    yield TransformedPicture("gamma-removed", _levels(255 * share**2), 3, everywhere=False)
     grey: Levels = np.repeat(share @ np.array([[0.2126], [0.7152], [0.0722]]), 3, axis=2)
-    yield Transformed("grey", _levels(255 * grey), 3, everywhere=False)
-    yield Transformed("grey", _levels(255 * share.mean(axis=2, keepdims=True).repeat(3, axis=2)), 3, everywhere=False)
+    yield TransformedPicture("grey", _levels(255 * grey), 3, everywhere=False)
+    yield TransformedPicture(
+        "grey", _levels(255 * share.mean(axis=2, keepdims=True).repeat(3, axis=2)), 3, everywhere=False
+    )
 
 
-def _scaled(picture: Picture) -> Iterator[Transformed]:
+def _scaled(picture: Picture) -> Iterator[TransformedPicture]:
     """By the factor that most of the wrong pixels agree on."""
     mine, reference = picture.mine[picture.wrong], picture.reference[picture.wrong]
     usable = (reference >= _DARK) & (mine >= _DARK // 2) & (mine <= _BRIGHT) & (reference <= _BRIGHT)
@@ -92,13 +94,13 @@ def _scaled(picture: Picture) -> Iterator[Transformed]:
     if _FACTORS[0] <= factor <= _FACTORS[1] and abs(factor - 1) >= _LEAST_FACTOR:
         name = "too-bright" if factor > 1 else "too-dark"
         whole = _levels(picture.reference * factor)
-        yield Transformed(name, whole, 2 + int(np.ceil(factor)), everywhere=False, detail=f"{factor:.2g}")
+        yield TransformedPicture(name, whole, 2 + int(np.ceil(factor)), everywhere=False, detail=f"{factor:.2g}")
 
 
-_ALL: tuple[Callable[[Picture], Iterator[Transformed]], ...] = (_turned, _shifted, _recoloured, _scaled)
+_ALL: tuple[Callable[[Picture], Iterator[TransformedPicture]], ...] = (_turned, _shifted, _recoloured, _scaled)
 
 
-def _left(picture: Picture, changed: Transformed) -> float | None:
+def _left(picture: Picture, changed: TransformedPicture) -> float | None:
     """The share of the picture that the change leaves wrong, or none where it explains too little."""
     off = differing(picture.mine, changed.pixels, changed.tolerance)
     if not changed.everywhere:
@@ -109,7 +111,7 @@ def _left(picture: Picture, changed: Transformed) -> float | None:
     return share if share <= min(_MAX_LEFT, _MAX_OF_WRONG * before) else None
 
 
-def _touches_the_whole(picture: Picture, changed: Transformed) -> bool:
+def _touches_the_whole(picture: Picture, changed: TransformedPicture) -> bool:
     """A change of colours must have reached most of what it would change: else only some object has another colour.
     What is as in the reference may be the background, which no function of the step touches: it has one colour."""
     would = differing(changed.pixels, picture.reference, 2 * changed.tolerance)
@@ -119,9 +121,9 @@ def _touches_the_whole(picture: Picture, changed: Transformed) -> bool:
     return bool(concerned.any()) and float((concerned & picture.wrong).sum() / concerned.sum()) >= 1 - _MAX_OF_WRONG
 
 
-def transformation_of(picture: Picture, more: Mapping[str, Pixels]) -> Transformed | None:
+def transformation_of(picture: Picture, more: Mapping[str, Pixels]) -> TransformedPicture | None:
     """The change that explains the picture best. `more`: pictures that it may be taken for, by what that means."""
-    found = [Transformed(name, pixels) for name, pixels in more.items() if pixels.shape == picture.mine.shape]
+    found = [TransformedPicture(name, pixels) for name, pixels in more.items() if pixels.shape == picture.mine.shape]
     found += [changed for make in _ALL for changed in make(picture)]
     left = [(share, changed) for changed in found if (share := _left(picture, changed)) is not None]
     return min(left, key=lambda pair: pair[0])[1] if left else None

@@ -15,7 +15,7 @@ from importlib.resources import files
 from pathlib import Path, PurePosixPath
 
 from raysteps import __version__
-from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV, Need
+from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV, Requirement
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import new_or_empty_folder, write_bytes
 from raysteps.common.text import join_and
@@ -23,7 +23,7 @@ from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.settings import FILE as COURSE
 from raysteps.course.settings import Course, read_course
-from raysteps.course.tracked_files import places
+from raysteps.course.tracked_files import list_files
 from raysteps.exports.autolab import no_scores
 from raysteps.exports.prairielearn import question_info, question_name, question_page
 
@@ -111,7 +111,7 @@ def _belongs(place: PurePosixPath) -> bool:
 def kit_files(project: Project) -> list[KitFile]:
     """Sorted by place; links are not followed."""
     root = project.root
-    listed = {*places(root, _FOLDERS), *map(PurePosixPath, _FILES)}
+    listed = {*list_files(root, _FOLDERS), *map(PurePosixPath, _FILES)}
     found = [KitFile(place, root / place) for place in sorted(listed) if _belongs(place)]
     files = [file for file in found if file.source.is_file() and not file.source.is_symlink()]
     there = {file.place.parts[0] for file in files}
@@ -202,7 +202,9 @@ def _pins(project: Project, *extras: str) -> list[str]:
     return pinned + sorted(known[name] for name in known.keys() - {_name(line) for line in pinned})
 
 
-def _installed(about: str, needs: Sequence[Need], more: Sequence[str], base: str, pins: Sequence[str]) -> list[Member]:
+def _installed(
+    about: str, needs: Sequence[Requirement], more: Sequence[str], base: str, pins: Sequence[str]
+) -> list[Member]:
     """Dockerfile and requirements.txt of an image without any file of the kit."""
     packages = " ".join(sorted({*more, *(need.packages["apt-get"] for need in needs)}))
     text = _template("Dockerfile").replace("@ABOUT@", about).replace("@BASE@", base).replace("@PACKAGES@", packages)

@@ -106,7 +106,7 @@ def as_png(picture: Image.Image) -> bytes:
     return data.getvalue()
 
 
-def sheet(folder: Path, items: Sequence[Item]) -> bytes | None:
+def contact_sheet(folder: Path, items: Sequence[Item]) -> bytes | None:
     """All pictures of a step below each other, each below its name; None where there is none."""
     strips = [shown for item in items if (shown := strip(folder, item)) is not None]
     if not strips:
@@ -131,7 +131,7 @@ Paste = Callable[[str, str], None]  # what takes a picture: its label, and a dat
 
 
 @dataclass
-class Album:
+class ImageBudget:
     """Pictures that would like to come along; those of failed checks come first."""
 
     around: int  # bytes of the document around a picture and its label

@@ -10,7 +10,7 @@ from typing import Any
 from raysteps.common.errors import UsageError
 from raysteps.common.text import apportion, clean, harmless_log, tenths
 from raysteps.course.manifest import Step
-from raysteps.exports.formats import sheet
+from raysteps.exports.formats import contact_sheet
 from raysteps.exports.items import (
     WHOLE,
     as_code,
@@ -113,7 +113,7 @@ def release_files(results: Results, steps: Mapping[str, Step], folder: Path) -> 
     page = _page(shown, steps, folder)
     files = {} if page is None else {f"{FOLDER}/{REPORT}": page}
     for result in shown.steps:
-        pictures = sheet(folder, items_of(result, steps.get(result.id)))
+        pictures = contact_sheet(folder, items_of(result, steps.get(result.id)))
         if pictures is not None:
             files[f"{FOLDER}/{result.id}.png"] = pictures
     return files

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from raysteps.classroom.entries import folded
-from raysteps.common.errors import UTF16_MARKS, UsageError, place_of, reason
+from raysteps.common.errors import UTF16_MARKS, UsageError, decode_error_position, reason
 from raysteps.common.text import clean, delimiter_of, number
 from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, spoken_name
 
@@ -123,7 +123,9 @@ def read_sheet(path: Path) -> Sheet:
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise UsageError(f"{path}:{place_of(error)}: is not UTF-8; export or save it as CSV in UTF-8") from error
+        raise UsageError(
+            f"{path}:{decode_error_position(error)}: is not UTF-8; export or save it as CSV in UTF-8"
+        ) from error
     start = 1 if text.startswith("\ufeff") else 0
     delimiter = delimiter_of(text[start:])
     rows = _Scanner(path, text, start, delimiter).rows()

@@ -8,11 +8,11 @@ from typing import Any, Literal, get_args
 
 from raysteps.common.text import clean
 from raysteps.course.manifest import Step
-from raysteps.exports.formats import Album, Paste
+from raysteps.exports.formats import ImageBudget, Paste
 from raysteps.exports.items import (
     WHOLE,
-    Entry,
     Item,
+    ScoredItem,
     as_html,
     entries_of,
     extra_of,
@@ -36,7 +36,7 @@ def _name(name: str, item: Item) -> str:
     return f"{name}: {item.name}" if item.kind == "step" else f"{name}: {item.kind} {item.name}"
 
 
-def _test(name: str, number: str, entry: Entry, hidden: Visibility) -> dict[str, Any]:
+def _test(name: str, number: str, entry: ScoredItem, hidden: Visibility) -> dict[str, Any]:
     item = entry.item
     test: dict[str, Any] = {
         "number": number,
@@ -65,7 +65,9 @@ def _paste(test: dict[str, Any], item: Item) -> Paste:
     return paste
 
 
-def _tests(result: StepResult, steps: Mapping[str, Step], hidden: Visibility, album: Album) -> list[dict[str, Any]]:
+def _tests(
+    result: StepResult, steps: Mapping[str, Step], hidden: Visibility, album: ImageBudget
+) -> list[dict[str, Any]]:
     tests = []
     number = int(result.id[:2])
     name = one_line(title(result, steps))
@@ -112,7 +114,7 @@ def to_gradescope(
     if names:
         output = f"Submitted by {', '.join(names)}.\n{output}"
     results = spread_deduction(results)
-    album = Album(_AROUND_A_PICTURE)
+    album = ImageBudget(_AROUND_A_PICTURE)
     tests = [test for result in results.steps for test in _tests(result, steps, hidden, album)]
     if extra := extra_of(results):
         text = clean("\n".join(review_lines(results.review, whole=True)))

@@ -147,7 +147,7 @@ def step_text(result: StepResult) -> str:
 
 
 @dataclass(frozen=True)
-class Entry:
+class ScoredItem:
     """A check with its points."""
 
     item: Item
@@ -174,7 +174,7 @@ def _rest(result: StepResult, items: list[Item], earned: int, lost: int) -> list
     return [Item("step", "the rest", 1.0, share, "Points that no single check accounts for.")]
 
 
-def entries_of(result: StepResult, step: Step | None) -> list[Entry]:
+def entries_of(result: StepResult, step: Step | None) -> list[ScoredItem]:
     """What was earned goes to the checks by what was right in them, what was lost by what was wrong."""
     earned = _hundredths(result.points)
     lost = max(0, _hundredths(result.max) - earned)
@@ -184,7 +184,9 @@ def entries_of(result: StepResult, step: Step | None) -> list[Entry]:
     wrong = [item.weight * (1 - item.share) for item in items]
     gains = apportion(earned, right) if earned else [0] * len(items)
     losses = apportion(lost, wrong) if lost else [0] * len(items)
-    return [Entry(item, gain / 100, (gain + loss) / 100) for item, gain, loss in zip(items, gains, losses, strict=True)]
+    return [
+        ScoredItem(item, gain / 100, (gain + loss) / 100) for item, gain, loss in zip(items, gains, losses, strict=True)
+    ]
 
 
 def extra_of(results: Results) -> float:

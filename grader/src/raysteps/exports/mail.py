@@ -157,7 +157,7 @@ def _next_words(results: Results, known: Mapping[str, str]) -> str:
     return f"{said} {text}" if found.kind == "finding" else f"{said} This is what one gets when {text}."
 
 
-def values(delivery: Delivery, deliveries: Deliveries, file: str) -> dict[str, str]:
+def template_values(delivery: Delivery, deliveries: Deliveries, file: str) -> dict[str, str]:
     """What the words of a template stand for. Text that came from elsewhere is only text."""
     student, results = delivery.student, delivery.results
     steps = {step.id: step for step in deliveries.steps}
@@ -178,7 +178,7 @@ def values(delivery: Delivery, deliveries: Deliveries, file: str) -> dict[str, s
     }
 
 
-def filled(text: str, found: Mapping[str, str]) -> str:
+def fill_template(text: str, found: Mapping[str, str]) -> str:
     """A line that holds nothing but words for which there is nothing to say goes away. What is put in is not read
     again."""
     lines = []
@@ -262,9 +262,9 @@ def _file(*, zipped: bool) -> str:
 
 
 def _text_message(delivery: Delivery, deliveries: Deliveries, options: MailOptions, address: str) -> EmailMessage:
-    found = values(delivery, deliveries, _file(zipped=options.zipped))
+    found = template_values(delivery, deliveries, _file(zipped=options.zipped))
     message = EmailMessage(_POLICY)
-    message["Subject"] = header_text(filled(options.template.subject, found))
+    message["Subject"] = header_text(fill_template(options.template.subject, found))
     message["From"] = options.sender
     message["To"] = Address(header_text(delivery.student.name), addr_spec=address)
     if options.reply_to is not None:
@@ -274,7 +274,7 @@ def _text_message(delivery: Delivery, deliveries: Deliveries, options: MailOptio
     own = hashlib.sha256(named.encode("utf-8", "replace")).hexdigest()[:40]
     message["Message-ID"] = f"<{own}@{options.sender.domain}>"  # whoever gets it twice, sees it once
     message["Auto-Submitted"] = "auto-generated"  # nobody's holiday answers it
-    message.set_content(clean(filled(options.template.body, found), 40_000), cte="quoted-printable")
+    message.set_content(clean(fill_template(options.template.body, found), 40_000), cte="quoted-printable")
     return message
 
 

@@ -10,11 +10,11 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, readable_json
 from raysteps.common.text import clean, count, number, tenths
 from raysteps.course.manifest import Step
-from raysteps.exports.formats import Album, Paste
+from raysteps.exports.formats import ImageBudget, Paste
 from raysteps.exports.items import (
     WHOLE,
-    Entry,
     Kind,
+    ScoredItem,
     entries_of,
     extra_of,
     one_line,
@@ -109,7 +109,7 @@ def score(total: Total) -> tuple[float, str]:
     return min(1.0, round(share, 6)), note
 
 
-def _said(entry: Entry, limit: int) -> str:
+def _said(entry: ScoredItem, limit: int) -> str:
     """A check in its card: what it gave, and what is wrong."""
     item = entry.item
     points = f"{number(entry.points)} of {number(entry.most)} points"
@@ -118,7 +118,7 @@ def _said(entry: Entry, limit: int) -> str:
     return f"{name}: {points}{text}"
 
 
-def _card(name: str, entries: Sequence[Entry], limit: int, *, bonus: bool) -> dict[str, Any]:
+def _card(name: str, entries: Sequence[ScoredItem], limit: int, *, bonus: bool) -> dict[str, Any]:
     """What PrairieLearn calls a test. A bonus adds to the points of the heading, but not to its maximum."""
     most = round(sum(entry.most for entry in entries), 2)
     lines = [_said(entry, limit) for entry in sorted(entries, key=lambda entry: entry.item.passed)]
@@ -130,20 +130,20 @@ def _card(name: str, entries: Sequence[Entry], limit: int, *, bonus: bool) -> di
     }
 
 
-def _cards(result: StepResult, steps: Mapping[str, Step], *, alone: bool) -> list[tuple[str, list[Entry]]]:
+def _cards(result: StepResult, steps: Mapping[str, Step], *, alone: bool) -> list[tuple[str, list[ScoredItem]]]:
     """One for each step; for a step that is graded alone one for each kind of check."""
     entries = entries_of(result, steps.get(result.id))
     if not alone:
         return [(one_line(title(result, steps)), entries)]
-    groups: dict[str, list[Entry]] = {}
+    groups: dict[str, list[ScoredItem]] = {}
     for entry in entries:
         groups.setdefault(_KINDS.get(entry.item.kind, entry.item.name), []).append(entry)
     return list(groups.items())
 
 
-def _without_pictures(results: Results, steps: Mapping[str, Step], limit: int) -> tuple[dict[str, Any], Album]:
+def _without_pictures(results: Results, steps: Mapping[str, Step], limit: int) -> tuple[dict[str, Any], ImageBudget]:
     share, note = score(results.total)
-    album, tests = Album(_AROUND_A_PICTURE), []
+    album, tests = ImageBudget(_AROUND_A_PICTURE), []
     for result in results.steps:
         bonus = result.bonus and bool(results.total.max)
         for name, entries in _cards(result, steps, alone=len(results.steps) == 1):

@@ -22,7 +22,7 @@ from raysteps.course.stubs import placed_tokens
 MAX_TOKENS = 20_000  # of a file, from its beginning; the longest honest ones have 3000
 GRAM = 9  # words: what is alike in fewer is never found
 WINDOW = 4
-SURE = GRAM + WINDOW - 1  # what is alike in so many words is always found
+GUARANTEED_MATCH = GRAM + WINDOW - 1  # what is alike in so many words is always found
 
 _LOOPS = {"for", "while", "do"}
 _TYPES = {
@@ -46,7 +46,7 @@ _DOUBLE = {"&&", "||", "==", "!=", "<=", ">=", "+=", "-=", "*=", "/=", "++", "--
 _NO_CODE = {"include", "pragma", "line", "error", "warning"}
 
 
-class Word(NamedTuple):
+class Token(NamedTuple):
     """A token without what can be changed at no cost, and where it stands."""
 
     text: str
@@ -54,9 +54,9 @@ class Word(NamedTuple):
     end: int
 
 
-def _paired(source: str) -> list[Word]:
+def _paired(source: str) -> list[Token]:
     """The tokens, without comments and what is included; signs of two characters in one piece."""
-    found: list[Word] = []
+    found: list[Token] = []
     directive: list[str] | None = None
     for text, start in placed_tokens(source):
         if text == "\n":
@@ -66,15 +66,15 @@ def _paired(source: str) -> list[Word]:
         elif directive is None or directive[0] not in _NO_CODE:
             last = found[-1] if found else None
             if last is not None and last.end == start and last.text + text in _DOUBLE:
-                found[-1] = Word(last.text + text, last.start, start + 1)
+                found[-1] = Token(last.text + text, last.start, start + 1)
             else:
-                found.append(Word(text, start, start + len(text)))
+                found.append(Token(text, start, start + len(text)))
         if len(found) > 2 * MAX_TOKENS:
             break
     return found
 
 
-def _plain(code: Sequence[Word], at: int, public: Collection[str]) -> str:
+def _plain(code: Sequence[Token], at: int, public: Collection[str]) -> str:
     """What a token counts as; nothing for one that does not count."""
     text = code[at].text
     before = code[at - 1].text if at else ""
@@ -103,15 +103,15 @@ def _plain(code: Sequence[Word], at: int, public: Collection[str]) -> str:
     return text if fixed else "name"
 
 
-def words_of(source: str, public: Collection[str]) -> list[Word]:
+def tokenize(source: str, public: Collection[str]) -> list[Token]:
     """`public`: the names of the contracts and the framework, which nobody can choose. They stay where a member or a
     function is meant."""
     code = _paired(source)
-    found: list[Word] = []
+    found: list[Token] = []
     for at, one in enumerate(code):
         plain = _plain(code, at, public)
         if plain and not (plain == "type" and found and found[-1].text == "type"):
-            found.append(Word(plain, one.start, one.end))
+            found.append(Token(plain, one.start, one.end))
     return found[:MAX_TOKENS]
 
 
@@ -119,7 +119,7 @@ def is_read_whole(source: str, public: Collection[str]) -> bool:
     """Whether no word of it is left out: somebody may have written many to hide those that follow."""
     if len(source) < MAX_TOKENS:
         return True
-    return len(_paired(source)) <= 2 * MAX_TOKENS and len(words_of(source, public)) < MAX_TOKENS
+    return len(_paired(source)) <= 2 * MAX_TOKENS and len(tokenize(source, public)) < MAX_TOKENS
 
 
 @cache
@@ -130,7 +130,7 @@ def _number(word: str) -> int:
 Hashes = npt.NDArray[np.uint64]
 
 
-def gram_hashes(words: Sequence[Word]) -> Hashes:
+def kgram_hashes(words: Sequence[Token]) -> Hashes:
     """One for each GRAM words in a row."""
     if len(words) < GRAM:
         return np.zeros(0, np.uint64)
@@ -163,7 +163,7 @@ def winnowed(hashes: Hashes) -> list[int]:
 USUAL = 0.75  # what more than this share of all have says nothing about two of them
 LONG = 600.0  # fingerprints: the longest honest files weigh as much; what is more of a file counts for nothing
 SHORT = 60.0  # fingerprints: code of this weight that is all alike is half as alike as long code
-LOOK = 0.3  # from this likeness on a pair is worth a look
+REVIEW_THRESHOLD = 0.3  # from this likeness on a pair is worth a look
 MAX_SUBMISSIONS = 2000
 _BLOCK = 2048  # fingerprints at a time
 _DIGITS = 4  # of a likeness: what comes after them depends on the machine
@@ -175,7 +175,7 @@ Origin = Literal["class", "before", "background"]
 
 
 @dataclass(frozen=True)
-class Handed:
+class ComparedSubmission:
     """What somebody has handed in, as text by step. `before`, in an earlier term or by the kit, is compared with the
     class only; `background` only tells what is usual."""
 
@@ -206,13 +206,13 @@ class Likeness:
 
 def fingerprints(source: str, public: Collection[str]) -> Hashes:
     """Each once."""
-    hashes = gram_hashes(words_of(source, public))
+    hashes = kgram_hashes(tokenize(source, public))
     return np.unique(hashes[winnowed(hashes)])
 
 
 def all_hashes(texts: Sequence[str], public: Collection[str]) -> Hashes:
     """Of all that stands in these texts: nobody's own."""
-    found = [gram_hashes(words_of(text, public)) for text in texts]
+    found = [kgram_hashes(tokenize(text, public)) for text in texts]
     return np.unique(np.concatenate([*found, np.zeros(0, np.uint64)]))
 
 
@@ -292,7 +292,7 @@ class _Table:
         return Shares(round(min(1.0, one), _DIGITS), round(min(1.0, other), _DIGITS))
 
 
-def compare(handed: Sequence[Handed], public: Collection[str], given: Hashes, most: int) -> Comparison:
+def compare(handed: Sequence[ComparedSubmission], public: Collection[str], given: Hashes, most: int) -> Comparison:
     """`public`: names that nobody chose; `given`: what everybody got; `most`: so many pairs are told."""
     prints = [{step: fingerprints(text, public) for step, text in one.sources.items()} for one in handed]
     files = _compared(prints, given)
@@ -323,14 +323,14 @@ def compare(handed: Sequence[Handed], public: Collection[str], given: Hashes, mo
         whole = tables[""].shares(first, second)
         pairs.append(Likeness(first, second, float(value), names[place[first, second]], whole, steps))
     median, most_are = (round(float(np.quantile(values, part)), _DIGITS) if len(values) else 0.0 for part in (0.5, 0.9))
-    return Comparison(pairs, median, most_are, len(values), int((values >= LOOK).sum()))
+    return Comparison(pairs, median, most_are, len(values), int((values >= REVIEW_THRESHOLD).sum()))
 
 
 def groups(pairs: Sequence[Likeness]) -> list[list[int]]:
     """Three or more that hang together by pairs worth a look, the largest group first."""
     group: dict[int, set[int]] = {}
     for pair in pairs:
-        if pair.value >= LOOK:
+        if pair.value >= REVIEW_THRESHOLD:
             joined = group.get(pair.first, {pair.first}) | group.get(pair.second, {pair.second})
             group.update(dict.fromkeys(joined, joined))
     found = {min(one): sorted(one) for one in group.values() if len(one) > 2}
@@ -352,24 +352,24 @@ class Passage:
     length: int
 
 
-class Words:
+class TokenSequence:
     """A submission as one row of words; no passage goes on from one file into the next, whatever both are called."""
 
-    def __init__(self, handed: Handed, public: Collection[str]) -> None:
-        self.files: dict[str, list[Word]] = {step: words_of(text, public) for step, text in handed.sources.items()}
+    def __init__(self, handed: ComparedSubmission, public: Collection[str]) -> None:
+        self.files: dict[str, list[Token]] = {step: tokenize(text, public) for step, text in handed.sources.items()}
         self.words: list[str] = []
         self.hashes: dict[int, list[int]] = {}
         self.seeds: list[tuple[int, int]] = []  # places and hashes of the fingerprints
         for step, words in self.files.items():
             start = len(self.words)
-            hashes = gram_hashes(words)
+            hashes = kgram_hashes(words)
             for at, value in enumerate(hashes.tolist(), start=start):
                 self.hashes.setdefault(value, []).append(at)
             self.seeds += [(start + at, int(hashes[at])) for at in winnowed(hashes)]
             self.words += [*(word.text for word in words), f"\0{id(self)}/{step}"]
 
 
-def _candidates(one: Words, other: Words, given: Collection[int]) -> Iterator[Passage]:
+def _candidates(one: TokenSequence, other: TokenSequence, given: Collection[int]) -> Iterator[Passage]:
     """As long as they can be; none begins again inside itself."""
     work = 0
     ends: dict[int, int] = {}  # of the last passage with the same distance between both places
@@ -389,7 +389,7 @@ def _candidates(one: Words, other: Words, given: Collection[int]) -> Iterator[Pa
             return
 
 
-def passages(one: Words, other: Words, given: Collection[int]) -> list[Passage]:
+def passages(one: TokenSequence, other: TokenSequence, given: Collection[int]) -> list[Passage]:
     """What both have in common, the longest first, each word in one passage only: greedy string tiling."""
     taken = (bytearray(len(one.words)), bytearray(len(other.words)))
     found = []
@@ -397,7 +397,7 @@ def passages(one: Words, other: Words, given: Collection[int]) -> list[Passage]:
         free = [not (taken[0][long.first + at] or taken[1][long.second + at]) for at in range(long.length)]
         runs = list(accumulate(free, lambda run, is_free: run + 1 if is_free else 0))
         length = max(runs)
-        if length >= SURE:
+        if length >= GUARANTEED_MATCH:
             start = runs.index(length) - length + 1
             piece = Passage(long.first + start, long.second + start, length)
             taken[0][piece.first : piece.first + length] = b"\1" * length

@@ -17,13 +17,13 @@ from raysteps.course.mutants import read_alternatives, reference_source
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.exports.autograders import Member, as_zip, into_folder
-from raysteps.exports.similar_pairs import Handed, Origin
+from raysteps.exports.similar_pairs import ComparedSubmission, Origin
 from raysteps.submission.load import Submission, load_submission
 
 BASE, ROOM = "base-code", "submissions"
 _REFERENCE = "_kit-reference"  # no submission's name begins with `_` and a letter
 
-Started = dict[str, dict[Step, bytes]]  # by the names of submissions
+BegunSources = dict[str, dict[Step, bytes]]  # by the names of submissions
 
 
 def add_similarity_arguments(systems: "argparse._SubParsersAction[Any]") -> None:
@@ -47,13 +47,13 @@ def _started(submission: Submission, stubs: dict[Step, str]) -> dict[Step, bytes
     return found
 
 
-def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> Started:
+def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], left_out: list[Path]) -> BegunSources:
     """What each has begun, by name; who has begun nothing is named on stderr."""
     refuse_results(folder)
     entries = list_entries(folder, left_out).entries
     names = name_entries([entry.label for entry in entries], {})
     entries.sort(key=lambda entry: name_order(entry.label))
-    found: Started = {}
+    found: BegunSources = {}
     for entry in entries:
         try:
             started = {} if entry.leads_to else _started(load_submission(entry.path, every), stubs)
@@ -67,7 +67,7 @@ def started_of_class(folder: Path, every: list[Step], stubs: dict[Step, str], le
     return found
 
 
-def kits_ways(project: Project, steps: Collection[Step], origin: Origin) -> list[Handed]:
+def known_solutions(project: Project, steps: Collection[Step], origin: Origin) -> list[ComparedSubmission]:
     """The reference, and the other correct ways, one for each step: they tell what is usual where a class is small."""
     ways = [[reference_source(project, one), *(way.source for way in read_alternatives(project, one))] for one in steps]
     rows = [
@@ -75,10 +75,10 @@ def kits_ways(project: Project, steps: Collection[Step], origin: Origin) -> list
         for row in zip_longest(*ways)
     ]
     names = ["the kit's reference", *(f"the kit's other way {number}" for number in range(1, len(rows)))]
-    return [Handed(name, row, origin) for name, row in zip(names, rows, strict=True)]
+    return [ComparedSubmission(name, row, origin) for name, row in zip(names, rows, strict=True)]
 
 
-def everybodys_code(project: Project, stubs: Mapping[Step, str]) -> list[str]:
+def base_code(project: Project, stubs: Mapping[Step, str]) -> list[str]:
     """Stubs, contracts and the framework."""
     paths = [*project.steps.glob("*/*.hpp"), *(project.root / "framework").rglob("*.?pp")]
     return [*stubs.values(), *(path.read_text(encoding="utf-8", errors="replace") for path in sorted(paths))]

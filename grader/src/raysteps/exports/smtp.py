@@ -285,7 +285,7 @@ def _send(session: smtplib.SMTP, sender: str, message: Message, log: MailLog) ->
 
 
 @dataclass
-class Sending:
+class SendResult:
     """What became of it."""
 
     sent: int = 0
@@ -312,10 +312,10 @@ class Sender:
     log: MailLog
     say: Callable[[str], None]
     per_minute: float
-    outcome: Sending = field(default_factory=Sending)
+    outcome: SendResult = field(default_factory=SendResult)
     _session: smtplib.SMTP | None = None
 
-    def send(self, messages: Iterable[Message]) -> Sending:
+    def send(self, messages: Iterable[Message]) -> SendResult:
         """Until the end, or until the server takes no more."""
         in_a_row, is_first = 0, True
         try:

@@ -10,7 +10,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from raysteps.common.text import join_and, mean
 from raysteps.course.manifest import Step
-from raysteps.finale.own_pictures import Counted, LargePicture
+from raysteps.finale.own_pictures import CountedPicture, LargePicture
 from raysteps.images.compare import Pixels
 from raysteps.report.page import PictureData, pixel_data, render_page
 
@@ -33,7 +33,7 @@ class Finale:
     words: str  # of how the picture came about
     large: LargePicture
     stations: Sequence[Station]
-    counted: Sequence[Counted]
+    counted: Sequence[CountedPicture]
     command: str  # ./raysteps, as it is typed here
 
 
@@ -46,7 +46,7 @@ class _Bar:
     spared: str
 
 
-def _bars(counted: Sequence[Counted]) -> list[_Bar]:
+def _bars(counted: Sequence[CountedPicture]) -> list[_Bar]:
     most = max((one.work.tests_per_ray for one in counted), default=0.0) or 1.0
     bars = []
     for one in counted:
@@ -133,7 +133,7 @@ def _font_for(text: str, size: int) -> Font | None:
     return next((font for font in fonts if font is not None and _has(font, text)), None)
 
 
-def can_be_written(text: str) -> bool:
+def has_glyphs(text: str) -> bool:
     """Whether some font here has all its letters."""
     return _font_for(text, 20) is not None
 

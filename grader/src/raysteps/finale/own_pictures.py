@@ -25,7 +25,7 @@ _SECONDARY = {"shadow": "shadow rays", "reflect": "reflected rays", "refract": "
 _LAST_OF_PART_ONE = 8  # step 09 draws the same
 
 
-class NotDrawn(Exception):
+class RenderFailed(Exception):
     """The program gave up or crashed, and has said why on the terminal."""
 
     def __init__(self, code: int, what: str) -> None:
@@ -34,7 +34,7 @@ class NotDrawn(Exception):
 
 
 @dataclass(frozen=True)
-class Reach:
+class AvailableSteps:
     """Which steps there are to draw with."""
 
     drawn: tuple[Step, ...]
@@ -75,7 +75,7 @@ def _size(longest: int, shape: tuple[int, ...]) -> str:
     return f"{max(1, round(shape[1] * scale))}x{max(1, round(shape[0] * scale))}"
 
 
-def reach_of(steps: Sequence[Step], written: set[str], *, part_two: bool = False) -> Reach:
+def available_steps(steps: Sequence[Step], written: set[str], *, part_two: bool = False) -> AvailableSteps:
     """A step that changes the picture needs those before it; trees and bonuses may be left out."""
     drawn: list[Step] = []
     broken = False
@@ -85,11 +85,11 @@ def reach_of(steps: Sequence[Step], written: set[str], *, part_two: bool = False
             drawn.append(step)
         elif not (step.bonus or step.is_about_a_tree):
             broken = True
-    return Reach(tuple(drawn), tuple(step for step in steps if step not in drawn), part_two)
+    return AvailableSteps(tuple(drawn), tuple(step for step in steps if step not in drawn), part_two)
 
 
 @dataclass(frozen=True)
-class Counted:
+class CountedPicture:
     """The same small picture with one way to find what a ray meets."""
 
     name: str
@@ -123,13 +123,13 @@ class OwnProgram:
         picture.unlink(missing_ok=True)
         code = self.run([self.scene, "-o", str(picture), *self.threads, *words])
         if code != 0 or not picture.is_file():
-            raise NotDrawn(code or 1, what)
+            raise RenderFailed(code or 1, what)
         return picture
 
     def _counters(self) -> Path:
         return self.folder / "stats.json"
 
-    def large(self, reach: Reach, size: str | None, samples: int, *, denoise: bool = False) -> LargePicture:
+    def large(self, reach: AvailableSteps, size: str | None, samples: int, *, denoise: bool = False) -> LargePicture:
         """Without a size it is the scene's own."""
         estimates = self.folder / "estimates"
         sized = () if size is None else ("--size", size)
@@ -145,14 +145,14 @@ class OwnProgram:
     def _work(self) -> Work:
         work = read_work(self._counters().read_bytes())
         if work is None:
-            raise NotDrawn(1, "the counters: they cannot be read")
+            raise RenderFailed(1, "the counters: they cannot be read")
         return work
 
     def _told(self, name: str) -> float:
         found = re.search(rf'"{name}": *([0-9]{{1,18}}(\.[0-9]+)?)'.encode(), self._counters().read_bytes())
         return float(found[1]) if found else 0.0
 
-    def small(self, reach: Reach, step: Step, shape: tuple[int, ...]) -> Pixels:
+    def small(self, reach: AvailableSteps, step: Step, shape: tuple[int, ...]) -> Pixels:
         """As the steps up to this one see the scene; `shape` is that of the large picture."""
         size = _size(_SMALL, shape)
         at = str(min(step.index, reach.last) if step.is_about_a_tree else step.index)
@@ -161,7 +161,7 @@ class OwnProgram:
         words = ("--step", at, *view, "--accel", reach.accel_of(step), "--samples", samples, "--size", size)
         return read_png(self._draw(f"the picture of step {step.number}", *words, "--quiet"))
 
-    def counted(self, reach: Reach, large: LargePicture) -> list[Counted]:
+    def counted(self, reach: AvailableSteps, large: LargePicture) -> list[CountedPicture]:
         """Every surface for every ray, then with each tree. Nothing where there is no tree, or too much to test."""
         if not reach.trees or large.surfaces > _LARGEST_COUNTED:
             return []
@@ -171,7 +171,7 @@ class OwnProgram:
             words = ("--step", str(reach.last), "--accel", accel, "--samples", "1", "--size", size)
             stats = ("--stats", str(self._counters()))
             self._draw(f"the picture that is counted ({name})", *words, *stats, "--quiet")
-            found.append(Counted(name, self._work()))
+            found.append(CountedPicture(name, self._work()))
         return found
 
 

@@ -16,7 +16,7 @@ from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import trouble
 from raysteps.grading.step import GradingContext
 from raysteps.images.compare import Pixels
-from raysteps.images.render import Rendered, reference_picture, reference_work, render
+from raysteps.images.render import RenderResult, reference_picture, reference_work, render
 from raysteps.results.model import Work
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission, load_submission
@@ -244,7 +244,7 @@ class MySteps:
             self._programs[step.id] = (program, "" if ran is None else shorten(link_message(ran), _LONGEST))
         return self._programs[step.id]
 
-    def _render(self, program: Program, step: Step, scene: GalleryScene, args: tuple[str, ...]) -> Rendered:
+    def _render(self, program: Program, step: Step, scene: GalleryScene, args: tuple[str, ...]) -> RenderResult:
         rendered = render(self._sandbox, program, scene.path, args, self._limits[step.id].of_program())
         if rendered.ran.was_stopped:
             self._limits[step.id] = self._limits[step.id].after_a_stop()

@@ -9,7 +9,7 @@ from raysteps.course.manifest import Step, read_all_steps
 from raysteps.course.stubs import borrowed_functions, included, same_code, uses
 from raysteps.results.statuses import NOT_BUILT
 from raysteps.sandbox.task import TaskResult
-from raysteps.toolchain.compile import Compiled, clean_log, own_name
+from raysteps.toolchain.compile import Compiled, clean_log, unqualified_name
 from raysteps.toolchain.kit_artifacts import BuiltKit, function_name
 
 _MAX_READ = 1 << 20  # characters of what a compiler or linker said that are looked through
@@ -403,7 +403,10 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
     if compiled.forbidden:
         others = [other for other in read_all_steps(kit.project) if other.id != step.id]
         owners = {name: (other, shown) for other in others for name, shown in kit.functions(other).items()}
-        wanted = {*map(own_name, compiled.forbidden), *([_COUNTERS] if _of_counters(compiled.forbidden[0]) else [])}
+        wanted = {
+            *map(unqualified_name, compiled.forbidden),
+            *([_COUNTERS] if _of_counters(compiled.forbidden[0]) else []),
+        }
         return _at_its_use(forbidden_message(step, compiled.forbidden, owners), step, wanted, source)
     if compiled.barred:
         return barred_here(step, compiled.barred, source)

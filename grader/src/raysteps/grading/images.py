@@ -14,17 +14,17 @@ from raysteps.images.compare import (
     compare,
     difference,
     is_flat,
-    shown,
+    reduced_picture,
     write_png,
 )
 from raysteps.images.noise import NoisyComparison, bias_map
 from raysteps.images.render import (
-    Gate,
-    Rendered,
+    PictureCriteria,
+    RenderResult,
     describe_exit,
     judge_picture,
-    part_of_its_pixels,
     picture_task,
+    pixel_credit,
     read_rendered,
     reference_work,
     shown_reference,
@@ -49,25 +49,25 @@ class ImageGrader:
     out: Path
     made: dict[str, Pixels] = field(default_factory=dict)  # the step's own pictures, by name
 
-    def stopped(self) -> None:
+    def record_stop(self) -> None:
         self.limits = self.limits.after_a_stop()
 
-    def stopped_in(self, tests: Sequence[TestResult]) -> None:
+    def record_stops(self, tests: Sequence[TestResult]) -> None:
         self.limits = limits_after(tests, self.limits)
 
     def args_of(self, case: ImageCase) -> tuple[str, ...]:
         """In a students' kit without a tree where the picture does not ask for one: step 07 needs no step 06."""
         return case.args if self.kit.has_reference or case.has_tree else (*case.args, _TREE, _NO_TREE)
 
-    def render(self, program: Program, scene: Path, args: tuple[str, ...], *, noisy: bool = False) -> Rendered:
+    def render(self, program: Program, scene: Path, args: tuple[str, ...], *, noisy: bool = False) -> RenderResult:
         limits = self.limits
         ran = self.sandbox.run(picture_task(program, scene, args, limits.of_program(), estimates=noisy))
         if ran.was_stopped:
-            self.stopped()
+            self.record_stop()
         return replace(read_rendered(ran, estimates=noisy), sooner=limits.is_impatient)
 
 
-def trouble(rendered: Rendered) -> tuple[Termination, str]:
+def trouble(rendered: RenderResult) -> tuple[Termination, str]:
     """What kept a picture from being made."""
     outcome, message = describe_exit(rendered.ran, "The picture", sooner=rendered.sooner)
     return outcome, message or f"{rendered.problem.capitalize()}."
@@ -89,20 +89,20 @@ def too_many_tests(share: float | None, most: float) -> str:
     return TOO_MANY_TESTS.format(share=f"{share * 100:.3g}", most=f"{most * 100:.3g}")
 
 
-def part_of_a_picture(
+def image_credit(
     kit: BuiltKit,
     step: Step,
     scene: Path,
-    gate: ImageCase | Gate,
+    gate: ImageCase | PictureCriteria,
     max_share: float | None,
-    rendered: Rendered,
+    rendered: RenderResult,
     *,
     pixels_pass: bool,
 ) -> float:
     """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
     pixels = MAX_PARTIAL_SHARE
     if rendered.pixels is not None and (not pixels_pass or gate.max_noise is not None):
-        pixels = part_of_its_pixels(kit, step, scene, gate, rendered)
+        pixels = pixel_credit(kit, step, scene, gate, rendered)
     return round(pixels * _part_spared(rendered.share_tested, max_share), 6)
 
 
@@ -119,7 +119,7 @@ def may_carry_data(kit: BuiltKit) -> bool:
     return kit.boxed and kit.has_reference
 
 
-def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
+def grade_image(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
     noisy = case.max_noise is not None
@@ -147,7 +147,7 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
     result.outcome = "ok" if result.passed else "wrong"
     result.share = 1.0
     if not result.passed:
-        result.share = part_of_a_picture(
+        result.share = image_credit(
             gallery.kit,
             step,
             scene,
@@ -159,7 +159,7 @@ def judge(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -
     if rendered.pixels.shape == reference.shape:
         mine = rendered.pixels
         if not noisy and may_carry_data(gallery.kit):
-            mine = shown(mine, reference, result.wrong_share)
+            mine = reduced_picture(mine, reference, result.wrong_share)
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(mine, gallery.out / result.mine)
         result.difference = (folder / f"{case.name}-difference.png").as_posix()

@@ -20,9 +20,9 @@ from raysteps.diagnosis.mutant_fingerprints import are_learned
 from raysteps.grading.build_messages import link_message
 from raysteps.grading.images import (
     ImageGrader,
+    grade_image,
     grade_integration,
-    judge,
-    part_of_a_picture,
+    image_credit,
     too_many_tests,
     trouble,
 )
@@ -33,17 +33,17 @@ from raysteps.grading.step import (
     Programs,
     SpareProcessors,
     StepGrader,
-    answers_of,
     compile_steps,
+    interruptible_map,
 )
-from raysteps.grading.unit_tests import known_to_hang, limits_after, run_tests, set_aside
+from raysteps.grading.unit_tests import known_to_hang, limits_after, mark_waiting, run_tests
 from raysteps.grading.withhold import withhold
-from raysteps.images.render import Gate, Rendered, judge_picture
-from raysteps.judge.counterexamples import Examples
+from raysteps.images.render import PictureCriteria, RenderResult, judge_picture
+from raysteps.judge.counterexamples import Counterexamples
 from raysteps.judge.hidden_scenes import HiddenScene, hidden_scenes
-from raysteps.judge.hidden_tests import make_all_cases, run_hidden_tests, take_back, unspared, why_unspared
+from raysteps.judge.hidden_tests import make_all_cases, revoke_tree_points, run_hidden_tests, unspared, why_unspared
 from raysteps.judge.plan import Plan, read_plan
-from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, reference_unkept
+from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, uncached_reference_answers
 from raysteps.results.model import HiddenResult, ImageResult, Integration, Results, Settings, StepResult, Timing
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import AccountingSandbox, Sandbox
@@ -63,7 +63,7 @@ class _RenderedScene:
 
     scene: HiddenScene
     path: Path
-    rendered: Rendered
+    rendered: RenderResult
 
 
 class HiddenStepGrader(StepGrader):
@@ -87,7 +87,7 @@ class HiddenStepGrader(StepGrader):
         self._unexplained = False
         self._spoilt: list[str] = []  # functions that are better where the reference's stand for those before them
         self._ask: Ask | None = None
-        self._examples: Examples | None = None
+        self._examples: Counterexamples | None = None
         self.fault = ""  # of the grader, in this step
         if self._plan is not None:
             self.kinds = ("test", "raytrace", "worker")
@@ -135,10 +135,12 @@ class HiddenStepGrader(StepGrader):
             if early is not None:
                 result.images, scenes = draw(self._gallery) if early.cancel() else early.result()
             not_spared = unspared(result.images, result.hidden)
-            take_back(result.images, result.hidden)
+            revoke_tree_points(result.images, result.hidden)
             spares = not why_unspared(result.hidden)
             result.hidden += [self._judge_scene(scene, not_spared, spares=spares) for scene in scenes]
-            set_aside(result, step, kit.tests[step.id], self._work.source(step) or "", replaced=completed is not None)
+            mark_waiting(
+                result, step, kit.tests[step.id], self._work.source(step) or "", replaced=completed is not None
+            )
             result.messages += sum_up(result)
             self._unexplained = not is_right(result)
             self._ran = True
@@ -151,8 +153,8 @@ class HiddenStepGrader(StepGrader):
         kit, settings = self._work.kit, self._settings
         ask = self._ask = self._asked_of(worker, completed, limits)
         if settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
-            self._examples = Examples(
-                ask, lambda cases, _: reference_unkept(kit, cases), self._work.out, self._work.say
+            self._examples = Counterexamples(
+                ask, lambda cases, _: uncached_reference_answers(kit, cases), self._work.out, self._work.say
             )
         return partial(
             run_hidden_tests,
@@ -172,7 +174,7 @@ class HiddenStepGrader(StepGrader):
         """The step's pictures, and those of scenes that nobody has seen. These have files whose names say nothing."""
         images, scenes = [], []
         for case in self.step.images:
-            images.append(judge(gallery, program, self.step, case))
+            images.append(grade_image(gallery, program, self.step, case))
         for scene in unseen:
             nff = scene.nff.encode()
             path = self._work.folder / self.step.number / f"{hashlib.sha256(nff).hexdigest()[:16]}.nff"
@@ -192,7 +194,7 @@ class HiddenStepGrader(StepGrader):
             result.outcome, result.message = trouble(rendered)
             return result
         # Each seed has a picture of its own, so that the reference's must not take long.
-        gate = Gate(scene.args, scene.max_wrong, scene.max_noise, more_samples=4)
+        gate = PictureCriteria(scene.args, scene.max_wrong, scene.max_noise, more_samples=4)
         verdict = judge_picture(gallery.kit, path, gate, rendered)
         problem = verdict.message
         if verdict.passed and scene.max_share is not None:
@@ -204,7 +206,7 @@ class HiddenStepGrader(StepGrader):
             return result
         result.outcome = "wrong"
         if spares or scene.max_share is None:
-            result.share = part_of_a_picture(
+            result.share = image_credit(
                 gallery.kit,
                 step,
                 path,
@@ -455,7 +457,7 @@ def grade_submission(
                     write_results(withhold(results, settings.feedback), out)
                 else:
                     tell(results)
-            answers_of(pool, HiddenStepGrader.explain, graders)
+            interruptible_map(pool, HiddenStepGrader.explain, graders)
     write_results(withhold(results, settings.feedback), out)
     faults = [grader.fault for grader in graders if grader.fault]
     if faults:

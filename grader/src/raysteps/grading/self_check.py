@@ -14,10 +14,10 @@ from raysteps.common.errors import RaystepsError
 from raysteps.common.platform import processor_count
 from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, earlier
-from raysteps.grading.images import ImageGrader, judge
+from raysteps.grading.images import ImageGrader, grade_image
 from raysteps.grading.scoring import is_right, status_and_points, sum_up
-from raysteps.grading.step import GradingContext, SpareProcessors, StepGrader, answers_of, compile_steps
-from raysteps.grading.unit_tests import has_crashed, has_hung, set_aside, tell_crash_line
+from raysteps.grading.step import GradingContext, SpareProcessors, StepGrader, compile_steps, interruptible_map
+from raysteps.grading.unit_tests import has_crashed, has_hung, mark_waiting, tell_crash_line
 from raysteps.images.compare import write_png
 from raysteps.images.render import reference_image_path, render
 from raysteps.results.model import ImageResult, Integration, Results, StepResult, Timing
@@ -60,14 +60,14 @@ class SelfCheckGrader(StepGrader):
             early = self._drawn_again(draw, early)
             result.images = draw(self._gallery) if early is None or early.cancel() else early.result()
             source = self._work.source(self.step) or ""
-            set_aside(result, self.step, self._work.kit.tests[self.step.id], source)
+            mark_waiting(result, self.step, self._work.kit.tests[self.step.id], source)
             result.messages += sum_up(result)
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
         return result
 
     def _draw(self, program: Program, gallery: ImageGrader) -> list[ImageResult]:
-        return [judge(gallery, program, self.step, case) for case in self.step.images]
+        return [grade_image(gallery, program, self.step, case) for case in self.step.images]
 
     @property
     def has_picture(self) -> bool:
@@ -191,11 +191,11 @@ def _check(
             return grader.check()
 
         spare, none = (SpareProcessors(amount, ends) for amount in (jobs - len(chosen), 0))
-        answers = answers_of(pool, partial(check, spare=spare), chosen)
+        answers = interruptible_map(pool, partial(check, spare=spare), chosen)
         found.update(zip([step.id for step in chosen], answers, strict=True))
         wrong = [step for step in chosen if found[step.id].tests and not is_right(found[step.id])]
         rest = [step for step in steps if step.id not in found and any(step.index < other.index for other in wrong)]
-        answers = answers_of(pool, partial(check, spare=none), rest)
+        answers = interruptible_map(pool, partial(check, spare=none), rest)
         found.update(zip([step.id for step in rest], answers, strict=True))
     for step in wrong:
         found[step.id].messages[:0] = blame(work, step, found)

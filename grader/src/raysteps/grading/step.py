@@ -19,8 +19,8 @@ from raysteps.grading.scoring import max_points, still_missing, test_weights
 from raysteps.grading.unit_tests import not_written_yet, run_tests
 from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
-from raysteps.results.store import FOLDER as CASES
-from raysteps.results.store import place_of
+from raysteps.results.store import CASES_FOLDER as CASES
+from raysteps.results.store import case_path
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import (
@@ -62,7 +62,7 @@ _LEAST_ROOM = 256 << 20  # bytes, more than a build can use
 # Old results go first.
 
 
-def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
+def clear_old_results(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
     """Old results must not be taken for new ones. Only what a grader names so is deleted: the folder may be any. Cases
     stay for `replay` until their step is graded again."""
     usable_folder(out)
@@ -79,7 +79,7 @@ def clear(out: Path, steps: list[Step], asked_again: list[Step]) -> None:
             if not any(folder.iterdir()):
                 folder.rmdir()
         if not (out / CASES).is_symlink():
-            for name in (place_of(step.number, function) for step in asked_again for function in step.functions):
+            for name in (case_path(step.number, function) for step in asked_again for function in step.functions):
                 (out / name).unlink(missing_ok=True)
         for room in (out / "pictures", out / CASES):
             if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
@@ -214,7 +214,7 @@ class StepGrader:
         if early is not None and not early.cancel():
             wait([early])
         self._gallery = replace(self._gallery, limits=self._limits, made={})
-        self._gallery.stopped_in(self._result.tests)
+        self._gallery.record_stops(self._result.tests)
         return self._spare.start(partial(draw, self._gallery))
 
 
@@ -226,7 +226,7 @@ _Asked = TypeVar("_Asked")
 _Answer = TypeVar("_Answer")
 
 
-def answers_of(pool: Executor, ask: Callable[[_Asked], _Answer], items: Sequence[_Asked]) -> list[_Answer]:
+def interruptible_map(pool: Executor, ask: Callable[[_Asked], _Answer], items: Sequence[_Asked]) -> list[_Answer]:
     """As `pool.map`, but waits in turns: a Ctrl-C that comes just before Python waits without an end, or that another
     thread takes, is not heard until it wakes up."""
     futures = [pool.submit(ask, item) for item in items]
@@ -257,5 +257,5 @@ def compile_steps(
         build = StudentBuild(work.kit, work.sandbox, work.folder, work.kept)
         return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
 
-    compiled = answers_of(pool, compile_one, started)
+    compiled = interruptible_map(pool, compile_one, started)
     return {step.id: one for (step, _), one in zip(started, compiled, strict=True)}

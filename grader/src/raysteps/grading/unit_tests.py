@@ -336,7 +336,7 @@ def _missing(step: Step, functions: Sequence[str], unfinished: Sequence[str], ca
     return needed[0] if needed else ""
 
 
-def set_aside(
+def mark_waiting(
     result: StepResult,
     step: Step,
     tests: Mapping[str, Sequence[str]],
@@ -362,7 +362,7 @@ def set_aside(
             item.waits_for = _missing(step, [item.name], unfinished, called)
     pictures: list[ImageResult | HiddenResult] = [*result.images]
     pictures += [item for item in result.hidden if item.kind == "picture"]
-    set_pictures_aside(pictures, waiting)
+    mark_waiting_pictures(pictures, waiting)
     result.tests.sort(key=lambda test: bool(test.waits_for))
     if waiting:
         result.messages.append(not_written_yet(waiting))
@@ -374,7 +374,7 @@ def set_aside(
     return waiting
 
 
-def set_pictures_aside(pictures: Sequence[ImageResult | HiddenResult], waiting: Sequence[str]) -> None:
+def mark_waiting_pictures(pictures: Sequence[ImageResult | HiddenResult], waiting: Sequence[str]) -> None:
     """Those that do not pass say what they wait for, if anything is waited for."""
     for picture in pictures:
         if waiting and not picture.passed:

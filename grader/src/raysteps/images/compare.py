@@ -85,14 +85,16 @@ def commonest_color(pixels: Pixels) -> Pixels:
     return np.array([number >> 16, number >> 8 & 255, number & 255], np.uint8)
 
 
-def pixels_differ(one: Pixels, other: Pixels) -> Gaps:
+def channel_differences(one: Pixels, other: Pixels) -> Gaps:
     """How far each channel of two pictures of one size is from the other's."""
     return np.abs(one.astype(np.int16) - other.astype(np.int16))
 
 
-def gaps(one: Pixels, other: Pixels) -> Gaps:
+def pixel_differences(one: Pixels, other: Pixels) -> Gaps:
     """For each pixel of two pictures of one size, the difference of the channel that differs most."""
-    red, green, blue = np.moveaxis(pixels_differ(one, other), 2, 0)  # much quicker than the maximum of an axis of three
+    red, green, blue = np.moveaxis(
+        channel_differences(one, other), 2, 0
+    )  # much quicker than the maximum of an axis of three
     largest: Gaps = np.maximum(np.maximum(red, green), blue)
     return largest
 
@@ -111,13 +113,13 @@ def worst_pixel(mine: Path, reference: Path) -> tuple[int, int] | None:
         return None
     if one.shape != other.shape:
         return None
-    gap = gaps(one, other)
+    gap = pixel_differences(one, other)
     return widest(gap) if gap.any() else None
 
 
 def difference(mine: Pixels, reference: Pixels, factor: int = 8) -> Pixels:
     """The absolute difference of two pictures of one size, made brighter."""
-    bright: Pixels = np.minimum(pixels_differ(mine, reference) * factor, 255).astype(np.uint8)
+    bright: Pixels = np.minimum(channel_differences(mine, reference) * factor, 255).astype(np.uint8)
     return bright
 
 
@@ -125,12 +127,12 @@ GROSS = 0.5  # of the pixels
 _LEVELS = 32  # of a channel
 
 
-def shown(mine: Pixels, reference: Pixels, wrong_share: float) -> Pixels:
+def reduced_picture(mine: Pixels, reference: Pixels, wrong_share: float) -> Pixels:
     """The picture that a report shows of a student's: what is right looks as in the reference's. One that is grossly
     wrong keeps a pixel of four and 32 levels of each channel: enough to see what it is, and too little to carry data
     out of a sandbox."""
     if wrong_share <= GROSS:
-        wrong = gaps(mine, reference) > TOLERANCE
+        wrong = pixel_differences(mine, reference) > TOLERANCE
         return np.where(wrong[..., np.newaxis], mine, reference)
     height, width, _ = mine.shape
     step = 256 // _LEVELS
@@ -153,11 +155,11 @@ _WHOLLY_WRONG = 64  # of 255: a pixel that is farther off is no nearer to right 
 
 def mean_error(mine: Pixels, reference: Pixels) -> float:
     """How wrong the pixels are on average, from 0 to 1; two pictures of one size."""
-    gap = gaps(mine, reference)
+    gap = pixel_differences(mine, reference)
     return float(np.where(gap > TOLERANCE, np.minimum(gap, _WHOLLY_WRONG), 0).mean()) / _WHOLLY_WRONG
 
 
-def part_right(mine: Pixels, reference: Pixels, for_nothing: float) -> float:
+def partial_credit(mine: Pixels, reference: Pixels, for_nothing: float) -> float:
     """What a picture that does not pass still earns: how much less wrong it is than one that nobody has to work for.
     `for_nothing`: the error of that one."""
     if mine.shape != reference.shape or is_flat(mine) or for_nothing <= 0:
@@ -165,7 +167,7 @@ def part_right(mine: Pixels, reference: Pixels, for_nothing: float) -> float:
     return MAX_PARTIAL_SHARE * max(0.0, 1 - mean_error(mine, reference) / for_nothing)
 
 
-def error_without_work(reference: Pixels) -> float:
+def baseline_error(reference: Pixels) -> float:
     """Of the best picture of one colour, the most frequent one or the one in the middle, and of the outlines: black on
     the most frequent colour."""
     pixels = reference.reshape(-1, 3)
@@ -183,7 +185,7 @@ def compare(mine: Pixels, reference: Pixels, max_wrong: float) -> Comparison:
     """Passes when the share of pixels whose largest channel difference exceeds 2/255 is small enough."""
     if mine.shape != reference.shape:
         return Comparison(False, 1.0, f"The picture is {_size(mine)} pixels, expected {_size(reference)}.")
-    wrong = gaps(mine, reference) > TOLERANCE
+    wrong = pixel_differences(mine, reference) > TOLERANCE
     share = float(wrong.mean())
     if is_flat(mine) and not is_flat(reference):
         return Comparison(False, share, "The whole picture has one colour.")

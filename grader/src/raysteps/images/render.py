@@ -18,11 +18,11 @@ from raysteps.images.compare import (
     Comparison,
     PictureError,
     Pixels,
+    baseline_error,
     compare,
-    error_without_work,
     mean_error,
     parse_ppm,
-    part_right,
+    partial_credit,
     read_png,
     read_ppm,
     write_png,
@@ -39,7 +39,7 @@ from raysteps.images.noise import (
 )
 from raysteps.results.model import Termination, Work
 from raysteps.sandbox.task import Input, Limits, Output, Sandbox, Task, TaskResult, Word
-from raysteps.toolchain.compile import Program, own_name
+from raysteps.toolchain.compile import Program, unqualified_name
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 # The reference's pictures as files of a students' kit, reference/NN-name/CASE.png, and what is known of them.
@@ -64,7 +64,7 @@ def write_reference_image(kit: BuiltKit, project: Project, step: Step, case: Ima
         {
             "scene": content_hash(scene.read_bytes()),
             "work": None if work is None else asdict(work),
-            "for_nothing": error_for_nothing(kit, step, scene, case),
+            "for_nothing": step_baseline_error(kit, step, scene, case),
             "parts": None if case.max_noise is None else as_lists(reference_parts(kit, scene, case)),
         },
     )
@@ -112,7 +112,7 @@ def stored_reference_work(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> 
         raise UsageError(f"{given.path.with_suffix('.json')}: holds no counters; {_AGAIN}") from error
 
 
-def _stored_for_nothing(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> float:
+def _stored_baseline_error(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> float:
     given = _find(kit, scene, args)
     try:
         return float(given.facts["for_nothing"])
@@ -137,7 +137,7 @@ _MAX_SHARE = 1e6  # of the scene that a ray is tested against; more than 1 where
 
 
 @dataclass(frozen=True)
-class Rendered:
+class RenderResult:
     """A picture, or why there is none."""
 
     ran: TaskResult
@@ -168,17 +168,17 @@ def picture_task(
     return program.task(words, limits)
 
 
-def read_rendered(ran: TaskResult, *, estimates: bool = False) -> Rendered:
+def read_rendered(ran: TaskResult, *, estimates: bool = False) -> RenderResult:
     """What came of such a task."""
     if ran.outcome.timed_out or ran.stopped or ran.outcome.code != 0:
-        return Rendered(ran, None)
+        return RenderResult(ran, None)
     try:
         pixels = parse_ppm(ran.outputs.get("picture", b""))
         means = read_estimates(ran.outputs.get("estimates", b"")) if estimates else None
     except (PictureError, EstimatesError) as error:
-        return Rendered(ran, None, str(error))
+        return RenderResult(ran, None, str(error))
     stats = ran.outputs.get("stats", b"")[:_MAX_STATS]
-    return Rendered(ran, pixels, share_tested=_share_tested(stats), work=read_work(stats), estimates=means)
+    return RenderResult(ran, pixels, share_tested=_share_tested(stats), work=read_work(stats), estimates=means)
 
 
 def render(
@@ -189,7 +189,7 @@ def render(
     limits: Limits,
     *,
     estimates: bool = False,
-) -> Rendered:
+) -> RenderResult:
     """Both at once."""
     task = picture_task(program, scene, args, limits, estimates=estimates)
     return read_rendered(sandbox.run(task), estimates=estimates)
@@ -248,7 +248,7 @@ def reference_picture(kit: BuiltKit, scene: Path, args: tuple[str, ...]) -> Pixe
 
 
 @dataclass(frozen=True)
-class Gate:
+class PictureCriteria:
     """What is asked of a picture: how many pixels may be wrong, and of a noisy one how much noisier than the
     reference's it may be. `more_samples`: how many times as many samples the reference's noisy picture has."""
 
@@ -258,14 +258,14 @@ class Gate:
     more_samples: int = 16
 
 
-def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Pixels:
+def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteria) -> Pixels:
     """The reference's picture: of a noisy one, that with more samples, drawn once with the estimates beside it."""
     if gate.max_noise is None or not kit.has_reference:
         return reference_picture(kit, scene, gate.args)
     return _read_drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
 
 
-def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estimates:
+def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteria) -> Estimates:
     """The means of the parts of a noisy picture."""
     if not kit.has_reference:
         return stored_parts(_find(kit, scene, gate.args).path)
@@ -281,7 +281,7 @@ def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | Gate) -> Estim
         return read()
 
 
-def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> Comparison:
+def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteria, rendered: RenderResult) -> Comparison:
     """What was made, beside the reference's."""
     assert rendered.pixels is not None
     if gate.max_noise is None or rendered.estimates is None:
@@ -291,14 +291,16 @@ def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | Gate, rendered: 
     return compare_estimates(rendered.estimates, parts, (columns, rows), gate.more_samples, gate.max_noise)
 
 
-def part_of_its_pixels(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | Gate, rendered: Rendered) -> float:
+def pixel_credit(
+    kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | PictureCriteria, rendered: RenderResult
+) -> float:
     """What a picture that does not pass still earns; of a noisy one, by the light of its parts."""
     assert rendered.pixels is not None
-    for_nothing = error_for_nothing(kit, step, scene, gate)
+    for_nothing = step_baseline_error(kit, step, scene, gate)
     if gate.max_noise is None or rendered.estimates is None:
-        return part_right(rendered.pixels, reference_picture(kit, scene, gate.args), for_nothing)
+        return partial_credit(rendered.pixels, reference_picture(kit, scene, gate.args), for_nothing)
     right = as_picture(reference_parts(kit, scene, gate).mean)
-    return part_right(as_picture(rendered.estimates.in_parts().mean), right, for_nothing)
+    return partial_credit(as_picture(rendered.estimates.in_parts().mean), right, for_nothing)
 
 
 def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
@@ -309,23 +311,25 @@ def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
 _FIRST_WITH_LIGHT = 3  # the pictures of the steps before show something else
 
 
-def error_for_nothing(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | Gate) -> float:
+def step_baseline_error(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | PictureCriteria) -> float:
     """How wrong the best picture is that took no work in this step: one of a single colour, outlines, or what the steps
     before it draw. A tree changes no picture."""
     args = gate.args
     if not kit.has_reference:
-        return _stored_for_nothing(kit, scene, args)
+        return _stored_baseline_error(kit, scene, args)
 
-    def drawn(at: ImageCase | Gate) -> Pixels:
+    def drawn(at: ImageCase | PictureCriteria) -> Pixels:
         if at.max_noise is None:
             return reference_picture(kit, scene, at.args)
         return as_picture(reference_parts(kit, scene, at).mean)
 
     reference = drawn(gate)
-    simple = error_without_work(reference)
+    simple = baseline_error(reference)
     if step.index <= _FIRST_WITH_LIGHT or "--accel" in args or "--step" not in args:
         return simple
-    before = Gate(at_step(args, earlier(step, kit.steps)[-1].index), gate.max_wrong, gate.max_noise, gate.more_samples)
+    before = PictureCriteria(
+        at_step(args, earlier(step, kit.steps)[-1].index), gate.max_wrong, gate.max_noise, gate.more_samples
+    )
     return min(simple, mean_error(drawn(before), reference))
 
 
@@ -363,7 +367,7 @@ def exit_words(outcome: Outcome) -> str:
     last = outcome.stderr.strip().rpartition("\n")[2]
     nowhere = _NOWHERE.search(last)
     if nowhere is not None:
-        name = own_name(nowhere[1]) or nowhere[1]
+        name = unqualified_name(nowhere[1]) or nowhere[1]
         last = f"the program asks for {shorten(name, 100)}, which is defined nowhere that it could see"
     said = shorten(printable(last), 200)
     return f"exit code {outcome.code}" + (f": {said}" if said else "")

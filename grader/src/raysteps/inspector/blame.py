@@ -29,7 +29,7 @@ _SPACE = {"no-bounds": "bounds_of", "no-part": "split"}
 _BUILD = {"none": "closest_hit", "boxes": "split", "octree": "build_octree", "bvh": "build_bvh"}
 
 
-def lost_by(missed: Missed, accel: Accel, *, shadow: bool) -> str:
+def blamed_function(missed: Missed, accel: Accel, *, shadow: bool) -> str:
     """Why a surface was not found, although its own intersect finds it."""
     reason = missed.reason
     if reason == "box-missed":
@@ -66,7 +66,7 @@ def blame_hit(mine: Ray, reference: Ray, accel: Accel) -> str:
     """The same ray meets another surface, or none, or at another distance."""
     shadow = mine.role == "shadow"
     if mine.missed is not None:
-        return lost_by(mine.missed, accel, shadow=shadow)
+        return blamed_function(mine.missed, accel, shadow=shadow)
     if _changed_on_the_way(mine):
         return _SEARCH[accel][shadow]
     nearest = reference.hit

@@ -38,15 +38,15 @@ class TooLarge(str):
     __slots__ = ()
 
 
-class Counted(str):
+class NumericProblem(str):
     """A problem that ends in a number. Of two cases with the same `kind` the number may be another."""
 
     kind: str
 
 
-def counted(kind: str, number: str) -> Counted:
+def numeric_problem(kind: str, number: str) -> NumericProblem:
     """Both in one text."""
-    problem = Counted(f"{kind}: {number}")
+    problem = NumericProblem(f"{kind}: {number}")
     problem.kind = kind
     return problem
 
@@ -96,15 +96,15 @@ class Answer(Generic[T]):
             raise GraderFault(f"{name}: the reference fails: {problem}; given {shorten(given, 1000)}")
         return value
 
-    def measured(self, name: str, inputs: Inputs, line: str) -> "Measured[T]":
+    def measured(self, name: str, inputs: Inputs, line: str) -> "MeasuredReference[T]":
         """What all others are compared with."""
         value = self.reference(name, inputs, line)
         shown = f"for instance {self.words(value)}" if self.is_drawn else self.words(value)
         constant = shown if self.constant is None else self.constant(value)
         right = self.near(value) if self.near is not None else None
-        return Measured(line, value, Verdict("", shown, shown, 1.0, constant, right, right))
+        return MeasuredReference(line, value, Verdict("", shown, shown, 1.0, constant, right, right))
 
-    def verdict(self, inputs: Inputs, reference: "Measured[T]", actual_line: str) -> Verdict:
+    def verdict(self, inputs: Inputs, reference: "MeasuredReference[T]", actual_line: str) -> Verdict:
         """Compares; whatever the student's line holds, it is an answer, and perhaps a wrong one."""
         expected, whole = reference.value, reference.verdict
         if actual_line == reference.line:  # as most are, and this one was measured
@@ -135,7 +135,7 @@ class Answer(Generic[T]):
 
 
 @dataclass(frozen=True)
-class Measured(Generic[T]):
+class MeasuredReference(Generic[T]):
     """A line of the reference's, which is right by its own measure."""
 
     line: str
@@ -302,7 +302,7 @@ def direction(what: str, expected: Vector, actual: Vector, degrees: float = _DEG
     return wrong_length
 
 
-def off_surface(position: Vector, normal: Vector, origin: Vector, farthest: float = 0.0101) -> str:
+def ray_start_problem(position: Vector, normal: Vector, origin: Vector, farthest: float = 0.0101) -> str:
     """Whether a ray starts a little off a surface, on the side that the normal points to."""
     offset = minus(origin, position)
     slack = 4e-7 * (length(position) + 1)  # float has no finer steps there

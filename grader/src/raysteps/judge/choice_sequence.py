@@ -96,7 +96,7 @@ def simpler_directions(value: Vector) -> list[Vector]:
 
 
 T = TypeVar("T")
-Chosen: TypeAlias = float | int | bool | Vector
+ChoiceValue: TypeAlias = float | int | bool | Vector
 
 _MAX = 5000  # choices of one case
 _AHEAD: Vector = (0.0, 0.0, 1.0)
@@ -105,7 +105,7 @@ _AHEAD: Vector = (0.0, 0.0, 1.0)
 class Choice(NamedTuple):
     """What was chosen, and between which bounds; the type of the value tells what kind of choice it was."""
 
-    value: Chosen
+    value: ChoiceValue
     low: float = 0.0
     high: float = 0.0
 
@@ -156,13 +156,13 @@ class Replay(RandomSource):
     """Chooses what it is told. Where nothing is left, or something of another kind is asked for, it takes something
     simple; `choices` are what was really chosen."""
 
-    def __init__(self, values: Sequence[Chosen]) -> None:
+    def __init__(self, values: Sequence[ChoiceValue]) -> None:
         super().__init__("")
         self.choices: list[Choice] = []
         self._values = values
         self._next = 0
 
-    def _told(self, kind: type) -> Chosen | None:
+    def _told(self, kind: type) -> ChoiceValue | None:
         if len(self.choices) >= _MAX:
             raise InvalidChoice
         if self._next >= len(self._values) or type(self._values[self._next]) is not kind:

@@ -12,14 +12,14 @@ from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
-from raysteps.judge.answers import Counted, TooLarge, TooMuchWork
+from raysteps.judge.answers import NumericProblem, TooLarge, TooMuchWork
 from raysteps.judge.choice_sequence import Choice, Recorder
 from raysteps.judge.functions import FORMER_NAMES, Case, Function, Group, functions_of, seed_of
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.shrink_passes import (
     Candidate,
     Change,
-    Place,
+    ItemIndex,
     Recipe,
     changes,
     combined,
@@ -28,7 +28,7 @@ from raysteps.judge.shrink_passes import (
     make,
 )
 from raysteps.judge.worker import Ask, JudgedCase, Reply, answers_until_trouble, judge_reply
-from raysteps.results.store import FOLDER, place_of
+from raysteps.results.store import CASES_FOLDER, case_path
 
 # How long a student's program may run for the examples that a step is shown with.
 
@@ -63,7 +63,7 @@ _REFERENCE_SECONDS = 60.0
 
 
 @dataclass(frozen=True)
-class Wrong:
+class FailingCandidate:
     """A candidate that is wrong as well, and how it came from the last one."""
 
     candidate: Candidate
@@ -77,7 +77,7 @@ def _silent(judged: JudgedCase) -> bool:
 
 def is_same_kind(one: str, other: str) -> bool:
     """Whether two problems are the same but for a number that may differ from case to case."""
-    if isinstance(one, Counted) and isinstance(other, Counted):
+    if isinstance(one, NumericProblem) and isinstance(other, NumericProblem):
         return one.kind == other.kind
     return type(one) is type(other) and one == other
 
@@ -97,7 +97,9 @@ class ShrinkOracle:
         self._reference = reference
         self._budget = budget
 
-    def wrong(self, found: JudgedCase, proposed: Sequence[tuple[Candidate, Change]], seconds: float) -> list[Wrong]:
+    def wrong(
+        self, found: JudgedCase, proposed: Sequence[tuple[Candidate, Change]], seconds: float
+    ) -> list[FailingCandidate]:
         """Those that are wrong in the same way, the simplest first."""
         cases = [candidate.case for candidate, _ in proposed]
         replies = self._replies(cases, seconds, go_on=not _silent(found))
@@ -107,7 +109,7 @@ class ShrinkOracle:
         for i, line in zip(answered, expected, strict=True):
             judged = self._judge(cases[i], line, replies[i])
             if judged is not None and judged.asked and _same_way(found, judged):
-                wrong.append(Wrong(*proposed[i], judged))
+                wrong.append(FailingCandidate(*proposed[i], judged))
         return wrong
 
     def _replies(self, cases: Sequence[Case], seconds: float, *, go_on: bool) -> list[Reply | None]:
@@ -134,7 +136,7 @@ class ShrinkOracle:
         except GraderFault:
             return None
 
-    def simplest_stable(self, wrong: Sequence[Wrong]) -> Wrong | None:
+    def simplest_stable(self, wrong: Sequence[FailingCandidate]) -> FailingCandidate | None:
         """The simplest whose right answer stays the same when all numbers move a little: where it does not, correct
         methods may disagree. Kinds with exact numbers know what they do."""
         first = sorted(wrong, key=lambda one: one.candidate.complexity)[:_TRIED_FOR_STABILITY]
@@ -166,7 +168,7 @@ _BARREN = 3  # rounds without a simpler case
 _BEST = 30  # changes that did well and are tried together
 
 
-def _shape(candidate: Candidate) -> tuple[int, frozenset[Place]]:
+def _shape(candidate: Candidate) -> tuple[int, frozenset[ItemIndex]]:
     return len(candidate.choices), candidate.recipe.dropped
 
 
@@ -252,7 +254,9 @@ def write_case(path: Path, case: CaseFile) -> None:
 
 
 def _refuse(path: Path, problem: str) -> UsageError:
-    return UsageError(f"{path}: {problem}; expected a case as `check` writes it, such as {FOLDER}/02-closest-hit.json")
+    return UsageError(
+        f"{path}: {problem}; expected a case as `check` writes it, such as {CASES_FOLDER}/02-closest-hit.json"
+    )
 
 
 def read_case(path: Path) -> CaseFile:
@@ -293,7 +297,7 @@ def choices_of(group: Group, seed: str, place: int) -> list[Choice]:
 
 
 @dataclass
-class Examples:
+class Counterexamples:
     """Of one step. `reference` is asked without keeping what it says: the questions are about one submission."""
 
     student: Ask
@@ -320,7 +324,7 @@ class Examples:
         found = shrinker.shrink(found, choices)
         verdict, given = found.verdict, shorten(found.case.given(), LONGEST)
         expected, actual = shorten(verdict.expected, LONGEST), shorten(verdict.actual, LONGEST)
-        line, name = found.case.line(1), place_of(step.number, function.name)
+        line, name = found.case.line(1), case_path(step.number, function.name)
         case = CaseFile(SCHEMA, step.id, function.name, kind, line, str(verdict.problem), given, expected, actual)
         write_case(self.folder / name, case)
         return found, name

@@ -43,8 +43,8 @@ from raysteps.judge.scripted_tracer import (
     ScriptedHit,
     WeighedScatter,
 )
-from raysteps.judge.searches import Rays, Reach, Reaches, WhoseBvh, WhoseTree
-from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle
+from raysteps.judge.searches import BvhSource, Rays, RaySegment, RaySegments, TreeSource
+from raysteps.judge.surfaces import ScriptedSurface, Sphere, Surface, Surfaces, Triangle
 
 _MAX_ITEMS = 1000
 _LOWEST = -1_000_000_000  # as the worker takes them
@@ -118,7 +118,7 @@ def _surface(n: _Numbers) -> Surface:
     if kind == 1:
         return Triangle(n.vector(), n.vector(), n.vector())
     if kind in (2, 3):
-        return Scripted(n.real() if kind == 2 else None)
+        return ScriptedSurface(n.real() if kind == 2 else None)
     raise ProtocolError(f"there is no surface of kind {kind}")
 
 
@@ -175,10 +175,10 @@ _READERS: dict[type, Callable[[_Numbers], Any]] = {
     DirectSamples: _direct_samples,
     WeighedScatter: _weighed,
     MisScript: lambda n: MisScript(n.vector(), n.flag(), n.many(_mis_hit)),
-    WhoseTree: lambda n: WhoseTree(n.flag()),
-    WhoseBvh: lambda n: WhoseBvh(n.flag()),
+    TreeSource: lambda n: TreeSource(n.flag()),
+    BvhSource: lambda n: BvhSource(n.flag()),
     Rays: lambda n: Rays(n.many(_ray)),
-    Reaches: lambda n: Reaches(n.many(lambda m: Reach(_ray(m), m.real()))),
+    RaySegments: lambda n: RaySegments(n.many(lambda m: RaySegment(_ray(m), m.real()))),
 }
 _WITHOUT_FILL: dict[type, Callable[[_Numbers], Any]] = {
     Sphere: lambda n: Sphere(n.vector(), n.real()),

@@ -8,7 +8,7 @@ import numpy as np
 from raysteps.judge.answers import no_number
 from raysteps.judge.protocol import ProtocolError, TokenReader, Whole, f32, text, vector_words
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, off
+from raysteps.judge.statistics import Numbers, ratio_problem
 
 _MAX = 40_000
 _UNIT = 1e-4
@@ -121,4 +121,4 @@ def unit_problem(directions: Numbers) -> str:
     if odd:
         return odd
     lengths = np.linalg.norm(directions, axis=1)
-    return "" if (np.abs(lengths - 1) <= _UNIT).all() else off("a direction does not have length 1", lengths)
+    return "" if (np.abs(lengths - 1) <= _UNIT).all() else ratio_problem("a direction does not have length 1", lengths)

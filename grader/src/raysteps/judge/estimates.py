@@ -15,7 +15,7 @@ from raysteps.common.vectors import Vector
 from raysteps.judge.answers import Tolerance
 from raysteps.judge.protocol import Inputs, ProtocolError, Real, TokenReader, Whole, f32, rounded, vector_words
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import DEVIATIONS, Numbers, off
+from raysteps.judge.statistics import DEVIATIONS, Numbers, ratio_problem
 
 BATCHES = 256  # as in the worker
 _PRECISION_OF_A_BIAS = 11.5  # DEVIATIONS, as a t-test asks for them, and three more to be sure
@@ -23,7 +23,7 @@ _MAX = 200_000  # estimates for one case
 
 
 @dataclass(frozen=True)
-class Estimates:
+class BatchMeans:
     """Of so many independent estimates: what all cost, the means of batches, row by row, and what the first few streams
     gave together when they were asked at first and at last."""
 
@@ -47,7 +47,7 @@ class Estimates:
         with np.errstate(invalid="ignore", over="ignore"):  # light may be infinite
             return np.asarray(self.batches.std(axis=0, ddof=1) / math.sqrt(len(self.batches)))
 
-    def work(self, mean: Vector) -> float:
+    def inefficiency(self, mean: Vector) -> float:
         """What an error of the size of the right mean costs, of the worst channel: variance times cost. The number of
         estimates does not matter to it; an estimate that asks nothing counts as one question."""
         largest = max(map(abs, mean))
@@ -60,15 +60,15 @@ def plan(draw: RandomSource, bias: float) -> Inputs:
     return {"seed": Whole(seed), "precision": Real(f32(bias / _PRECISION_OF_A_BIAS)), "most": Whole(_MAX)}
 
 
-def read_estimates(tokens: TokenReader) -> Estimates:
+def read_estimates(tokens: TokenReader) -> BatchMeans:
     size, cost = tokens.whole(1, 1 << 30), tokens.whole(0, 1 << 50)
     if tokens.whole() != BATCHES:
         raise ProtocolError("the answer holds another number of batches")
     batches = tokens.reals(3 * BATCHES).reshape(BATCHES, 3)
-    return Estimates(size, cost, batches, tokens.vector(), tokens.vector())
+    return BatchMeans(size, cost, batches, tokens.vector(), tokens.vector())
 
 
-def words_of_estimates(found: Estimates) -> str:
+def words_of_estimates(found: BatchMeans) -> str:
     """Mean and what it may be off by: two of three times it is nearer."""
     return f"{_words(found.mean)} +- {_words(found.error)} from {found.count} estimates"
 
@@ -78,7 +78,7 @@ def _words(channels: Numbers) -> str:
     return vector_words(rounded((x, y, z)))
 
 
-def limit(batches: Numbers, deviations: float = DEVIATIONS) -> float:
+def critical_value(batches: Numbers, deviations: float = DEVIATIONS) -> float:
     """How many standard errors a right mean may be off: Student's t for so many batches, as far out as that many
     deviations of a normal variable (Wallace 1959), and what a skew distribution adds to it (Johnson 1978)."""
     degrees = len(batches) - 1
@@ -96,14 +96,14 @@ _ROUNDING = Tolerance(1e-6, 2e-5)  # what float loses when it adds up
 def has_right_mean(batches: Numbers, mean: float) -> bool:
     """Of one channel."""
     error = float(batches.std(ddof=1)) / math.sqrt(len(batches))
-    return abs(float(batches.mean()) - mean) <= limit(batches) * error + _ROUNDING.of(mean)
+    return abs(float(batches.mean()) - mean) <= critical_value(batches) * error + _ROUNDING.of(mean)
 
 
 _MAX_WORK = 5.0  # times the reference's, before it counts as noise that need not be
 
 
 def estimates_problem(
-    what: str, mean: Vector, expected: Estimates, actual: Estimates, most_work: float = _MAX_WORK
+    what: str, mean: Vector, expected: BatchMeans, actual: BatchMeans, most_work: float = _MAX_WORK
 ) -> str:
     """Whether the same stream gives the same, the mean is right, and no needless noise is in it: an estimate that is
     right on average, but takes many more of them, or many more rays, to be of use."""
@@ -114,8 +114,8 @@ def estimates_problem(
     for channel in range(3):
         if not has_right_mean(actual.batches[:, channel], mean[channel]):
             words = f"{what} is wrong on average, {_side(float(actual.mean[channel]), mean[channel])}"
-            return off(words, np.divide(actual.mean, mean, out=np.zeros(3), where=np.array(mean) != 0))
-    if actual.work(mean) > most_work * expected.work(mean) + _NO_NOISE:
+            return ratio_problem(words, np.divide(actual.mean, mean, out=np.zeros(3), where=np.array(mean) != 0))
+    if actual.inefficiency(mean) > most_work * expected.inefficiency(mean) + _NO_NOISE:
         return f"{what} is right on average, but noisier than it need be"
     return ""
 

@@ -11,11 +11,11 @@ from typing import Any
 
 from raysteps.common.errors import GraderFault
 from raysteps.course.project import here
-from raysteps.judge.answers import Answer, Measured, Verdict
+from raysteps.judge.answers import Answer, MeasuredReference, Verdict
 from raysteps.judge.protocol import Inputs, text
 from raysteps.judge.random_source import RandomSource
 
-Make = Callable[[RandomSource], Inputs]
+InputGenerator = Callable[[RandomSource], Inputs]
 
 
 AGAIN = "asked again"  # a kind of cases that every function has, besides its own
@@ -27,7 +27,7 @@ class Group:
     the numbers are, and a little beside them the right answer may be another."""
 
     name: str
-    make: Make
+    make: InputGenerator
     saves: bool = False
     exact: bool = False
 
@@ -61,7 +61,7 @@ class Case:
         return " ".join([self.function, *numbers])
 
     @cached_property
-    def _known(self) -> dict[str, Measured[Any]]:
+    def _known(self) -> dict[str, MeasuredReference[Any]]:
         return {}
 
     def verdict(self, answer: Answer[Any], expected: str, actual: str) -> Verdict:

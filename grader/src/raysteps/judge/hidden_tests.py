@@ -11,13 +11,13 @@ from raysteps.common.text import count, join_and, shorten
 from raysteps.common.vectors import length, minus
 from raysteps.course.manifest import Step
 from raysteps.judge.answers import TooLarge, TooMuchWork, Verdict
-from raysteps.judge.choice_sequence import Choice, Chosen, InvalidChoice, Recorder, Replay, complexity
-from raysteps.judge.counterexamples import LONGEST, Examples
+from raysteps.judge.choice_sequence import Choice, ChoiceValue, InvalidChoice, Recorder, Replay, complexity
+from raysteps.judge.counterexamples import LONGEST, Counterexamples
 from raysteps.judge.functions import AGAIN, Case, Function, Group, functions_of, seed_of
 from raysteps.judge.plan import FunctionPlan, Plan
 from raysteps.judge.protocol import Inputs
 from raysteps.judge.random_source import MAX_TRIES, RandomSource
-from raysteps.judge.statistics import Uneven
+from raysteps.judge.statistics import UnevenProblem
 from raysteps.judge.worker import Ask, JudgedCase, TimeBudget, ask_worker, judge_reply
 from raysteps.results.model import CaseGroup, HiddenResult, ImageResult, Termination
 
@@ -27,7 +27,7 @@ from raysteps.results.model import CaseGroup, HiddenResult, ImageResult, Termina
 _TRIES = 15  # to change one input and no other
 
 
-def _redrawn(choice: Choice, draw: RandomSource) -> Chosen:
+def _redrawn(choice: Choice, draw: RandomSource) -> ChoiceValue:
     """Another value, between the same bounds."""
     if isinstance(choice.value, bool):
         return not choice.value
@@ -165,18 +165,18 @@ def _is_right(group: CaseGroup) -> bool:
     return group.cases - group.right <= _MAY_MISS * group.cases
 
 
-def for_nothing(judged: Sequence[JudgedCase]) -> float:
+def constant_answer_share(judged: Sequence[JudgedCase]) -> float:
     """The share of cases that whoever always gives the same answer has right."""
     answers = Counter(one.verdict.constant for one in judged)
     most = max(answers.values(), default=0)
     return round(most / len(judged), _DIGITS) if most > 1 else 0.0
 
 
-def share_of(plan: FunctionPlan, groups: Sequence[CaseGroup], judged: Sequence[JudgedCase]) -> float:
+def function_share(plan: FunctionPlan, groups: Sequence[CaseGroup], judged: Sequence[JudgedCase]) -> float:
     """Half of it is for ordinary cases, beyond what one answer to all of them gives, and half for the other kinds by
     their weights; these count in full only where at least a quarter of the first half is earned."""
     ordinary, *others = groups
-    free = for_nothing([one for one in judged if one.case.group == ordinary.name])
+    free = constant_answer_share([one for one in judged if one.case.group == ordinary.name])
     usual = max(0.0, (ordinary.share - free) / (1 - free)) if free < 1 else ordinary.share
     weight = sum(plan.kind_weights[group.name] for group in others)
     if not weight:
@@ -216,7 +216,7 @@ def unspared(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> s
     return "" if any(_is_above(image) for image in images) else why_unspared(hidden)
 
 
-def take_back(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> None:
+def revoke_tree_points(images: Sequence[ImageResult], hidden: Sequence[HiddenResult]) -> None:
     """Of the visible pictures in which few objects may be tested."""
     why = why_unspared(hidden)
     every_one = unspared(images, hidden)
@@ -306,11 +306,11 @@ def _outcome(judged: Sequence[JudgedCase]) -> Termination:
 
 
 def _result(
-    step: Step, plan: FunctionPlan, judged: Sequence[JudgedCase], seed: int, examples: Examples | None
+    step: Step, plan: FunctionPlan, judged: Sequence[JudgedCase], seed: int, examples: Counterexamples | None
 ) -> HiddenResult:
     groups = _groups(plan, judged)
     wrong = [group for group in groups if not _is_right(group)]
-    share = _with_a_mistake(share_of(plan, groups, judged)) if wrong else 1.0
+    share = _with_a_mistake(function_share(plan, groups, judged)) if wrong else 1.0
     result = HiddenResult(plan.name, "function", round(share, _DIGITS), plan.weight, groups=groups)
     result.spares_nothing = spares_nothing(functions_of(step.number)[plan.name], judged)
     if result.spares_nothing:
@@ -318,7 +318,7 @@ def _result(
     found = _first_wrong(judged, wrong)
     if found is not None:
         result.message = shorten(_message(plan.name, groups, wrong, found, _keeps_something(judged)), LONGEST)
-        if isinstance(found.verdict.problem, Uneven):
+        if isinstance(found.verdict.problem, UnevenProblem):
             result.histogram = found.verdict.problem.histogram  # a smaller case has too few samples to show it
         alone = found.case.group != AGAIN  # else it may be right when it is asked alone
         if examples is not None and alone and result.share > examples.above:
@@ -338,7 +338,7 @@ def run_hidden_tests(
     reference: Ask,
     seed: int,
     seconds: float | None = None,
-    examples: Examples | None = None,
+    examples: Counterexamples | None = None,
     hung: Collection[str] = (),
 ) -> list[HiddenResult]:
     """One result for each function, whatever the student's worker does. `seconds`: the limit of one run of it.

@@ -11,8 +11,8 @@ from raysteps.judge.answers import (
     channels,
     direction,
     first,
-    off_surface,
     plainly_wrong,
+    ray_start_problem,
     read_ray,
     real,
     share_right,
@@ -138,7 +138,7 @@ def hit_of(inputs: Inputs) -> Hit:
 
 def leaves_surface(hit: Hit, ray: Ray, *, side: float = 1.0) -> str:
     """The origin is a little off the surface; side -1 is the one behind it."""
-    return off_surface(hit.position, times(side, hit.normal), ray.origin, FARTHEST)
+    return ray_start_problem(hit.position, times(side, hit.normal), ray.origin, FARTHEST)
 
 
 def _shadow_problems(inputs: Inputs, actual: Ray) -> tuple[str, str]:

@@ -110,32 +110,32 @@ _MAX_IN_LEAF = 0.5  # of them, on average
 
 
 @dataclass(frozen=True)
-class TreeNode:
-    """One box; `known` are the surfaces in its own list. `parent` is the place of the box around it in the tree."""
+class OctreeNode:
+    """One box; `listed` are the surfaces in its own list. `parent` is the place of the box around it in the tree."""
 
     low: Vector
     high: Vector
-    known: tuple[int, ...]
+    listed: tuple[int, ...]
     parent: int
     is_leaf: bool
 
 
 @dataclass(frozen=True)
-class Tree:
+class Octree:
     """Parents come before their children. `excess` is what a tree has too much of that was not told."""
 
-    nodes: tuple[TreeNode, ...]
+    nodes: tuple[OctreeNode, ...]
     excess: str = ""
 
 
-def read_tree(tokens: TokenReader) -> Tree:
+def read_octree(tokens: TokenReader) -> Octree:
     """Without recursion, and in time and memory that the caps bound."""
     kind = tokens.word()
     if kind == "large" and (excess := tokens.word()) in _MAX:
-        return Tree((), excess)
+        return Octree((), excess)
     if kind != "tree":
         raise ProtocolError("the answer is no tree")
-    nodes: list[TreeNode] = []
+    nodes: list[OctreeNode] = []
     entries = 0
     open_: list[tuple[int, int]] = [(0, 0)]  # parent and depth of a node that is to come
     while open_:
@@ -145,35 +145,35 @@ def read_tree(tokens: TokenReader) -> Tree:
         entries += size
         known = tokens.wholes(size, -1, _MAX_SURFACES)
         children = tokens.whole(0, MAX_NODES)
-        nodes.append(TreeNode(low, high, known, parent, children == 0))
+        nodes.append(OctreeNode(low, high, known, parent, children == 0))
         if len(nodes) + len(open_) + children > MAX_NODES or depth > DEEPEST:
             raise ProtocolError("the tree is too large")
         open_ += [(len(nodes) - 1, depth + 1)] * children
-    return Tree(tuple(nodes))
+    return Octree(tuple(nodes))
 
 
-def _tables(tree: Tree, surfaces: int) -> tuple[_Table, _Table]:
+def _tables(tree: Octree, surfaces: int) -> tuple[_Table, _Table]:
     """Which surfaces are in each node's own list, and which in that or in the lists of the boxes around it."""
     own = np.zeros((len(tree.nodes), surfaces), dtype=np.bool_)
     for place, node in enumerate(tree.nodes):
-        own[place, list(node.known)] = True
+        own[place, list(node.listed)] = True
     every = own.copy()
     for place, node in enumerate(tree.nodes):
         every[place] |= every[node.parent]
     return own, every
 
 
-def tree_words(tree: Tree) -> str:
+def tree_words(tree: Octree) -> str:
     if tree.excess:
         return f"a tree of more than {_MAX[tree.excess]}"
-    lists = {number for node in tree.nodes for number in node.known}
+    lists = {number for node in tree.nodes for number in node.listed}
     leaves = np.array([node.is_leaf for node in tree.nodes])
     # Unknown surfaces are -1, the last column.
     mean = _tables(tree, max(lists, default=-1) + 2)[1][leaves].sum(axis=1).mean()
     return f"a tree of {len(tree.nodes)} boxes; {leaves.sum()} leaves with {mean:.3g} surfaces on average"
 
 
-def _reached(tree: Tree) -> Boxes:
+def _reached(tree: Octree) -> Boxes:
     """What a search sees of each box: the part in all boxes around it. Nothing where a number is NaN."""
     low, high = (np.array([getattr(node, side) for node in tree.nodes]) for side in ("low", "high"))
     for place, node in enumerate(tree.nodes):
@@ -182,7 +182,7 @@ def _reached(tree: Tree) -> Boxes:
     return Boxes(low, high)
 
 
-def _lost(tree: Tree, surfaces: tuple[Surface, ...], own: _Table, every: _Table) -> str:
+def _lost(tree: Octree, surfaces: tuple[Surface, ...], own: _Table, every: _Table) -> str:
     points = np.stack(points_on(surfaces))
     margin = _MARGIN * float((points.max(axis=(0, 1)) - points.min(axis=(0, 1))).max())
     boxes = _reached(tree)
@@ -213,13 +213,13 @@ def _lost_of(boxes: Boxes, leaves: _Flags, points: Points, own: _Table, known: _
     return "a surface runs through a leaf that does not have it in its list"
 
 
-def _tree_problem(inputs: Inputs, _expected: Tree, actual: Tree) -> str:
+def _tree_problem(inputs: Inputs, _expected: Octree, actual: Octree) -> str:
     given = inputs["surfaces"]
     assert isinstance(given, Surfaces)
     surfaces = given.surfaces
     if actual.excess:
         return TooLarge(f"the tree has more than {_MAX[actual.excess]} for {len(surfaces)} surfaces")
-    if any(node.known and not 0 <= min(node.known) <= max(node.known) < len(surfaces) for node in actual.nodes):
+    if any(node.listed and not 0 <= min(node.listed) <= max(node.listed) < len(surfaces) for node in actual.nodes):
         return "a list holds something that is no surface of the scene"
     if not surfaces:
         return "" if len(actual.nodes) == 1 else "a tree without surfaces is a single leaf"
@@ -233,4 +233,4 @@ def _tree_problem(inputs: Inputs, _expected: Tree, actual: Tree) -> str:
     return problem
 
 
-TREE = Answer(read_tree, tree_words, _tree_problem)
+OCTREE = Answer(read_octree, tree_words, _tree_problem)

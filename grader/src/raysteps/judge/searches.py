@@ -15,7 +15,7 @@ MAX_ASKED_SHARE = 0.5  # of the surfaces, by a ray on average, where there are m
 
 
 @dataclass(frozen=True)
-class WhoseTree:
+class TreeSource:
     own: bool  # made by the submission's own build_octree
 
     def numbers(self) -> list[Number]:
@@ -27,7 +27,7 @@ class WhoseTree:
 
 
 @dataclass(frozen=True)
-class WhoseBvh(WhoseTree):
+class BvhSource(TreeSource):
     def words(self) -> str:
         return "made by build_bvh" if self.own else "lists halved along x, y and z in turn, up to 3 surfaces in a leaf"
 
@@ -44,22 +44,22 @@ class Rays:
 
 
 @dataclass(frozen=True)
-class Search:
+class SearchResult:
     """What one ray found, and how many surfaces were asked for it."""
 
     asked: int
     found: MaybeHit
 
 
-class Counted(Protocol):
+class CountedAnswer(Protocol):
     """The answer for one ray."""
 
     @property
     def asked(self) -> int: ...
 
 
-One = TypeVar("One", bound=Counted)
-Work = Callable[[Inputs, Sequence[int], Sequence[int]], str]  # what the reference asked, and what was asked
+One = TypeVar("One", bound=CountedAnswer)
+WorkCheck = Callable[[Inputs, Sequence[int], Sequence[int]], str]  # what the reference asked, and what was asked
 
 
 def read_all(tokens: TokenReader, read_one: Callable[[TokenReader], One]) -> tuple[One, ...]:
@@ -82,7 +82,7 @@ def problem_of(
     inputs: Inputs,
     answers: tuple[Sequence[One], Sequence[One]],
     one_problem: Callable[[One, One], str],
-    work_problem: Work,
+    work_problem: WorkCheck,
 ) -> str:
     """Of the expected and the actual answers: the first that is wrong, and then the work."""
     expected, actual = answers
@@ -96,11 +96,11 @@ def hit_without_asking(*, hit: bool, asked: int) -> str:
     return "a hit came without asking a surface" if hit and asked == 0 else ""
 
 
-def _read_one(tokens: TokenReader) -> Search:
-    return Search(tokens.whole(), read_hit(tokens))
+def _read_one(tokens: TokenReader) -> SearchResult:
+    return SearchResult(tokens.whole(), read_hit(tokens))
 
 
-def one_problem(expected: Search, actual: Search) -> str:
+def one_problem(expected: SearchResult, actual: SearchResult) -> str:
     unasked = hit_without_asking(hit=actual.found.hit is not None, asked=actual.asked)
     return first(found_problem(expected.found, actual.found), unasked)
 
@@ -116,11 +116,11 @@ def too_many_asked(inputs: Inputs, expected: Sequence[int], asked: Sequence[int]
     return ""
 
 
-def _problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
+def _problem(inputs: Inputs, expected: tuple[SearchResult, ...], actual: tuple[SearchResult, ...]) -> str:
     return problem_of(inputs, (expected, actual), one_problem, too_many_asked)
 
 
-SEARCHES: Answer[tuple[Search, ...]] = Answer(
+SEARCHES: Answer[tuple[SearchResult, ...]] = Answer(
     lambda tokens: read_all(tokens, _read_one),
     lambda searches: words_of(searches, lambda search: found_words(search.found)),
     _problem,
@@ -159,7 +159,7 @@ def _occlusion_problem(inputs: Inputs, expected: tuple[Occlusion, ...], actual: 
     return problem_of(inputs, (expected, actual), one_occlusion_problem, too_many_asked)
 
 
-ANY_HITS: Answer[tuple[Occlusion, ...]] = Answer(
+OCCLUSIONS: Answer[tuple[Occlusion, ...]] = Answer(
     lambda tokens: read_all(tokens, _read_occlusion),
     lambda answers: words_of(answers, _one_in_words),
     _occlusion_problem,
@@ -174,7 +174,7 @@ _MAX_TIMES = 2.0  # what the reference asks, in a tree that is given
 
 
 @dataclass(frozen=True)
-class Reach:
+class RaySegment:
     """A ray up to a distance."""
 
     ray: Ray
@@ -188,8 +188,8 @@ class Reach:
 
 
 @dataclass(frozen=True)
-class Reaches:
-    rays: tuple[Reach, ...]
+class RaySegments:
+    rays: tuple[RaySegment, ...]
 
     def numbers(self) -> list[Number]:
         return [len(self.rays), *(number for reach in self.rays for number in reach.numbers())]
@@ -202,7 +202,7 @@ def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int])
     """Of many rays: most surfaces must be spared them, and in a tree that is given nearly all that can be."""
     surfaces, tree = inputs["surfaces"], inputs["tree"]
     assert isinstance(surfaces, Surfaces)
-    assert isinstance(tree, WhoseTree)
+    assert isinstance(tree, TreeSource)
     if len(actual) < 2 or not surfaces.surfaces:
         return ""
     share = sum(actual) / (len(surfaces.surfaces) * len(actual))
@@ -214,7 +214,7 @@ def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int])
     return ""
 
 
-def _closest_problem(inputs: Inputs, expected: tuple[Search, ...], actual: tuple[Search, ...]) -> str:
+def _closest_problem(inputs: Inputs, expected: tuple[SearchResult, ...], actual: tuple[SearchResult, ...]) -> str:
     return problem_of(inputs, (expected, actual), one_problem, work_problem)
 
 
@@ -223,4 +223,4 @@ def _any_problem(inputs: Inputs, expected: tuple[Occlusion, ...], actual: tuple[
 
 
 CLOSEST_IN_BVH = Answer(SEARCHES.read, SEARCHES.words, _closest_problem, constant=SEARCHES.constant)
-ANY_IN_BVH = Answer(ANY_HITS.read, ANY_HITS.words, _any_problem, constant=ANY_HITS.constant)
+OCCLUSIONS_IN_BVH = Answer(OCCLUSIONS.read, OCCLUSIONS.words, _any_problem, constant=OCCLUSIONS.constant)

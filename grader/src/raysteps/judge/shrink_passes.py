@@ -10,7 +10,7 @@ from typing import Any
 from raysteps.common.vectors import Vector
 from raysteps.judge.choice_sequence import (
     Choice,
-    Chosen,
+    ChoiceValue,
     InvalidChoice,
     Replay,
     complexity,
@@ -21,12 +21,12 @@ from raysteps.judge.choice_sequence import (
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.protocol import Inputs, Lights, PixelSamples, Real, Value, f32
 from raysteps.judge.scripted_tracer import DirectSamples, Script, ScriptedHit
-from raysteps.judge.searches import Rays, Reaches
+from raysteps.judge.searches import Rays, RaySegments
 from raysteps.judge.surfaces import Surfaces
 
 # Other inputs made from given ones: with shorter lists, or with other numbers in the same places.
 
-Place = tuple[str, int]  # the name of an input that is a list, and which of its items
+ItemIndex = tuple[str, int]  # the name of an input that is a list, and which of its items
 
 _ITEMS = {
     Surfaces: "surfaces",
@@ -34,7 +34,7 @@ _ITEMS = {
     PixelSamples: "samples",
     DirectSamples: "samples",
     Rays: "rays",
-    Reaches: "rays",
+    RaySegments: "rays",
     Script: "hits",
 }
 _NAMES = {(ScriptedHit, "distance")}  # by which a hit is known again
@@ -48,7 +48,7 @@ def _items(value: Value) -> tuple[Any, ...]:
     return found
 
 
-def places(inputs: Inputs) -> list[Place]:
+def item_indices(inputs: Inputs) -> list[ItemIndex]:
     """All items of all lists."""
     return [(name, i) for name, value in inputs.items() for i in range(len(_items(value)))]
 
@@ -59,7 +59,7 @@ def _shortened(value: Value, dropped: set[int]) -> Value:
     return shorter
 
 
-def without(inputs: Inputs, dropped: frozenset[Place]) -> Inputs:
+def without(inputs: Inputs, dropped: frozenset[ItemIndex]) -> Inputs:
     """Without some items of the lists."""
     names = {name for name, _ in dropped}
     return {
@@ -112,8 +112,8 @@ def jittered(inputs: Inputs, sign: Callable[[], float]) -> Inputs:
 class Recipe:
     """What a case is made of. Places count the items of the list as it was made, before some are dropped."""
 
-    values: tuple[Chosen, ...]
-    dropped: frozenset[Place] = frozenset()
+    values: tuple[ChoiceValue, ...]
+    dropped: frozenset[ItemIndex] = frozenset()
     plain_zeros: bool = False
     digits: int | None = None  # of single numbers
 
@@ -123,7 +123,7 @@ class Candidate:
     recipe: Recipe  # only what was really used
     case: Case
     choices: tuple[Choice, ...]
-    places: tuple[Place, ...]  # of items that are left
+    places: tuple[ItemIndex, ...]  # of items that are left
 
     @cached_property
     def complexity(self) -> tuple[int, float]:
@@ -135,7 +135,7 @@ def make(function: Function, group: str, recipe: Recipe) -> Candidate | None:
     replay = Replay(recipe.values)
     try:
         inputs = function.by_name[group].make(replay)
-        every = places(inputs)
+        every = item_indices(inputs)
         inputs = without(inputs, recipe.dropped)
         inputs = inputs if recipe.digits is None else with_digits(inputs, recipe.digits)
         case = Case(function.name, group, with_plain_zeros(inputs) if recipe.plain_zeros else inputs)
@@ -158,8 +158,8 @@ _COSINES = (1.0, 0.8, 0.6, 0.28, 0.96, -0.6, -0.8)  # of right triangles with sh
 class Change:
     """Other values at some of the choices, and items to leave out."""
 
-    values: tuple[tuple[int, Chosen], ...] = ()
-    dropped: frozenset[Place] = frozenset()
+    values: tuple[tuple[int, ChoiceValue], ...] = ()
+    dropped: frozenset[ItemIndex] = frozenset()
     plain_zeros: bool = False
     digits: int | None = None
 
@@ -179,7 +179,7 @@ class Change:
         return Change(tuple(sorted(values.items())), self.dropped | other.dropped, zeros, digits)
 
 
-def _simpler(choice: Choice) -> Sequence[Chosen]:
+def _simpler(choice: Choice) -> Sequence[ChoiceValue]:
     value = choice.value
     if isinstance(value, bool):
         return [not value]
@@ -190,7 +190,7 @@ def _simpler(choice: Choice) -> Sequence[Chosen]:
     return simpler_reals(value, choice.low, choice.high)
 
 
-def _drops(left: Sequence[Place]) -> Iterator[Change]:
+def _drops(left: Sequence[ItemIndex]) -> Iterator[Change]:
     """All items, all but one, and pieces of the list, large ones first."""
     yield Change(dropped=frozenset(left))
     size = len(left) // 2
@@ -203,7 +203,7 @@ def _drops(left: Sequence[Place]) -> Iterator[Change]:
             yield Change(dropped=frozenset(left) - {one})
 
 
-def _at_once(simpler: Sequence[Sequence[Chosen]]) -> Iterator[Change]:
+def _at_once(simpler: Sequence[Sequence[ChoiceValue]]) -> Iterator[Change]:
     """Everything as simple as can be; then so the first half, the second half, the quarters."""
     parts = 1
     while parts <= 4:

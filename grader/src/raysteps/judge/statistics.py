@@ -52,7 +52,7 @@ def is_uniform(shares: Numbers, bins: int, significance: float = SIGNIFICANCE) -
     return chi_square_tail(statistic, cells - 1) >= significance
 
 
-def is_like(shares: Numbers, others: Numbers, bins: int) -> bool:
+def has_same_distribution(shares: Numbers, others: Numbers, bins: int) -> bool:
     """Whether rows of numbers from 0 to 1 are spread over the bins as others are, which are the judge's own draws
     (chi-square test of two samples). Bins with too few to tell are taken together."""
 
@@ -74,13 +74,13 @@ def is_like(shares: Numbers, others: Numbers, bins: int) -> bool:
     return chi_square_tail(statistic, len(found) - 1) >= SIGNIFICANCE
 
 
-def have_one_mean(numbers: Numbers, others: Numbers) -> bool:
+def means_agree(numbers: Numbers, others: Numbers) -> bool:
     """Whether independent numbers have the mean of others, which are the judge's own draws (z-test)."""
     deviation = math.sqrt(float(others.var()) * (1 / len(numbers) + 1 / len(others)))
     return abs(float(numbers.mean() - others.mean())) <= DEVIATIONS * deviation
 
 
-def happens_so_often(found: int, tries: int, seen: int, own_tries: int) -> bool:
+def is_plausible_count(found: int, tries: int, seen: int, own_tries: int) -> bool:
     """Whether an event that came `seen` times in the judge's own tries may come so often: exact binomial tails, at the
     end of the range in which its probability must lie."""
     share = seen / own_tries
@@ -99,7 +99,7 @@ def _binomial_tail(found: int, tries: int, probability: float, *, many: bool) ->
     return float(np.exp(chances).sum())
 
 
-def may_be_so_many(found: int, shares: Numbers, slack: int) -> bool:
+def is_plausible_total(found: int, shares: Numbers, slack: int) -> bool:
     """Whether of independent events, each with a probability of its own, so many may come; `slack`: how many of them
     may have gone another way. From one off the mean on, tails are no heavier than those of as many events that all have
     the mean probability (Hoeffding 1956)."""
@@ -117,7 +117,7 @@ def are_independent(first: Numbers, second: Numbers, bins: int) -> bool:
     return is_uniform((first - second) % 1.0, bins) and is_uniform((first + second) % 1.0, bins)
 
 
-def many_alike(rows: Numbers, gap: float) -> bool:
+def has_many_near_pairs(rows: Numbers, gap: float) -> bool:
     """Whether, within the rows, many more numbers from 0 to 1 lie within `gap` of another one than chance explains."""
     pairs = rows.shape[0] * (rows.shape[1] - 1)
     alike = int((np.diff(np.sort(rows, axis=1), axis=1) <= gap).sum())
@@ -133,21 +133,21 @@ _MIN_ALIKE, _ALIKE_SHARE = 20, 0.01
 _BARS = 16
 
 
-class Uneven(str):
+class UnevenProblem(str):
     """A problem of how numbers are spread, with their histogram. `goes_round`: angles, counted from anywhere."""
 
     histogram: Histogram
     goes_round: bool
 
 
-def uneven(
+def uneven_problem(
     problem: str, over: str, shares: Numbers, others: Numbers | None = None, *, goes_round: bool = False
-) -> Uneven:
+) -> UnevenProblem:
     """Of numbers from 0 to 1, which should be even, or spread as others are."""
     counts, _ = np.histogram(shares, _BARS, (0.0, 1.0))
     own = np.full(_BARS, 1.0) if others is None else np.histogram(others, _BARS, (0.0, 1.0))[0]
     expected = [round(float(part), 2) for part in own * len(shares) / own.sum()]
-    found = Uneven(problem)
+    found = UnevenProblem(problem)
     found.histogram = Histogram(over, counts.tolist(), expected)
     found.goes_round = goes_round
     return found
@@ -157,15 +157,15 @@ DECILES = 9
 _FAR = 1e6
 
 
-class Off(str):
+class RatioProblem(str):
     """A problem of numbers that are not what they should be, and how many times that they are."""
 
     times: tuple[float, ...]
 
 
-def off(problem: str, times: Numbers) -> Off:
+def ratio_problem(problem: str, times: Numbers) -> RatioProblem:
     """Of a few such quotients all are kept, of more the deciles: samples come in any order, numbers in any shape."""
-    found = Off(problem)
+    found = RatioProblem(problem)
     numbers = np.clip(np.nan_to_num(times.ravel(), nan=-_FAR), -_FAR, _FAR)
     kept = numbers if len(numbers) < DECILES else np.quantile(numbers, np.arange(1, DECILES + 1) / (DECILES + 1))
     found.times = tuple(float(f"{one:.4g}") for one in kept)

@@ -44,7 +44,7 @@ class Triangle:
 
 
 @dataclass(frozen=True)
-class Scripted:
+class ScriptedSurface:
     """A surface that every ray hits at one distance, or none hits."""
 
     distance: float | None
@@ -56,7 +56,7 @@ class Scripted:
         return "a surface that is missed" if self.distance is None else f"a surface hit at {text(self.distance)}"
 
 
-Surface = Sphere | Triangle | Scripted
+Surface = Sphere | Triangle | ScriptedSurface
 
 
 def _kind(surface: Surface) -> int:
@@ -116,7 +116,7 @@ def distance_to(surface: Surface, ray: Ray) -> float:
         return _sphere_distance(surface, ray)
     if isinstance(surface, Triangle):
         return _triangle_distance(surface, ray)
-    assert isinstance(surface, Scripted)
+    assert isinstance(surface, ScriptedSurface)
     return math.inf if surface.distance is None else surface.distance
 
 

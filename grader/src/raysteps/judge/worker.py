@@ -81,7 +81,7 @@ class Replies:
 
 
 @dataclass(frozen=True)
-class OneRun:
+class WorkerRun:
     """The replies of a single run, and what it took; who was stopped took all the time that was given."""
 
     replies: list[Reply]
@@ -122,7 +122,7 @@ def _stdin(cases: Sequence[Case], first: int) -> bytes:
     return "".join(f"{case.line(i)}\n" for i, case in enumerate(cases[first:], first)).encode()
 
 
-def _what_came(ran: TaskResult, cases: Sequence[Case], first: int) -> tuple[list[Reply], Reply | None]:
+def _replies_and_trouble(ran: TaskResult, cases: Sequence[Case], first: int) -> tuple[list[Reply], Reply | None]:
     """The answers, and what became of the next case; None where nobody knows."""
     lines = ran.outcome.stdout.split("\n")
     rest = lines.pop()
@@ -147,7 +147,7 @@ def ask_worker(ask: Ask, cases: Sequence[Case], budget: TimeBudget) -> Replies:
         if not seconds:
             return _give_up(replies, cases, used, Reply("", "timeout", "there was no time left for it", asked=False))
         ran = ask(_stdin(cases, len(replies)), seconds)
-        answers, trouble = _what_came(ran, cases, len(replies))
+        answers, trouble = _replies_and_trouble(ran, cases, len(replies))
         used += ran.outcome.seconds
         budget.spend(seconds if ran.hung else ran.cpu_seconds, stopped=ran.was_stopped)
         seconds = budget.next_run()
@@ -174,13 +174,13 @@ def _give_up(replies: list[Reply], cases: Sequence[Case], seconds: float, rest: 
     return Replies(replies + [rest] * (len(cases) - len(replies)), seconds)
 
 
-def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> OneRun:
+def answers_until_trouble(ask: Ask, cases: Sequence[Case], seconds: float) -> WorkerRun:
     """The last reply may be the trouble that ended the run, if the function was called; the rest is not known."""
     ran = ask(_stdin(cases, 0), seconds)
-    replies, trouble = _what_came(ran, cases, 0)
+    replies, trouble = _replies_and_trouble(ran, cases, 0)
     if trouble is not None and f"start {len(replies)}" in ran.outcome.stdout.split("\n")[-3:]:
         replies = [*replies, trouble]
-    return OneRun(replies[: len(cases)], seconds if ran.hung else ran.cpu_seconds, ran.outcome.seconds)
+    return WorkerRun(replies[: len(cases)], seconds if ran.hung else ran.cpu_seconds, ran.outcome.seconds)
 
 
 # One case with what came of it.
@@ -230,7 +230,7 @@ def ask_some(ask: Ask, others: Ask, functions: Collection[str]) -> Ask:
     return route
 
 
-def reference_unkept(kit: BuiltKit, cases: bytes) -> TaskResult:
+def uncached_reference_answers(kit: BuiltKit, cases: bytes) -> TaskResult:
     """Its answers to questions that nobody asks twice."""
     return LimitsOnly().run(Task((Input(kit.reference("worker"), "worker"),), _REFERENCE_LIMITS, stdin=cases))
 
@@ -240,7 +240,7 @@ def reference_answers(kit: BuiltKit, cases: bytes) -> TaskResult:
     path = kit.kept("answers", hashlib.sha256(cases).hexdigest()[:32])
     if path.is_file():
         return TaskResult(Outcome(0, False, path.read_text("utf-8"), "", 0.0), {}, 0.0, "")
-    ran = reference_unkept(kit, cases)
+    ran = uncached_reference_answers(kit, cases)
     if ran.outcome.code != 0 or ran.outcome.timed_out:
         raise GraderFault(f"the reference did not answer the judge: {ran.outcome.stderr.strip()}")
     write_bytes(path, ran.outcome.stdout.encode())

@@ -50,7 +50,7 @@ class Material:
 
 
 @dataclass(frozen=True)
-class Part:
+class MeshPart:
     """Triangles of one material, y up."""
 
     name: str
@@ -61,7 +61,7 @@ class Part:
     material: Material
 
 
-def straightened(bent: Floats) -> Floats:
+def srgb_to_linear(bent: Floats) -> Floats:
     """From sRGB to linear, both from 0 to 1 (IEC 61966-2-1)."""
     return np.where(bent <= 0.04045, bent / 12.92, ((bent + 0.055) / 1.055) ** 2.4)
 
@@ -73,7 +73,7 @@ def _parts_of(image: Image.Image) -> Floats:
 
 def mean_color(image: Image.Image) -> Floats:
     """What a texture looks like from far away, linear."""
-    found: Floats = straightened(_parts_of(image)).mean(axis=(0, 1))
+    found: Floats = srgb_to_linear(_parts_of(image)).mean(axis=(0, 1))
     return found
 
 
@@ -86,7 +86,7 @@ def _rgb(value: Any) -> Floats:
 def _tinted(image: Image.Image, factor: Floats) -> Image.Image:
     if (factor == 1).all():
         return image.convert("RGB")
-    return Image.fromarray(as_picture(factor * straightened(_parts_of(image))))
+    return Image.fromarray(as_picture(factor * srgb_to_linear(_parts_of(image))))
 
 
 def _of_obj(material: SimpleMaterial) -> Material:
@@ -128,7 +128,7 @@ def _material(mesh: trimesh.Trimesh, *, linear: bool) -> Material:
     if visual is None or not visual.defined:
         return Material()
     colors = np.asarray(visual.vertex_colors if visual.kind == "vertex" else visual.face_colors)[:, :3] / 255
-    return Material((colors if linear else straightened(colors)).mean(axis=0))
+    return Material((colors if linear else srgb_to_linear(colors)).mean(axis=0))
 
 
 def _normals(mesh: trimesh.Trimesh, turn: Floats) -> Floats | None:
@@ -141,7 +141,7 @@ def _normals(mesh: trimesh.Trimesh, turn: Floats) -> Floats | None:
     return unit
 
 
-def _part(path: Path, name: str, mesh: trimesh.Trimesh, place: Floats) -> Part:
+def _part(path: Path, name: str, mesh: trimesh.Trimesh, place: Floats) -> MeshPart:
     """The mesh where a 4 x 4 matrix puts it."""
     where = path if name == path.name else f"{path}: {name}"
     turn = place[:3, :3]
@@ -161,17 +161,17 @@ def _part(path: Path, name: str, mesh: trimesh.Trimesh, place: Floats) -> Part:
     fits = uvs is not None and len(uvs) == len(positions)
     places = np.nan_to_num(np.asarray(uvs, dtype=np.float64)[:, :2], posinf=0, neginf=0) if fits else None
     material = _material(mesh, linear=path.suffix.lower() in (".gltf", ".glb"))
-    return Part(name, positions, _normals(mesh, turn), places, triangles, material)
+    return MeshPart(name, positions, _normals(mesh, turn), places, triangles, material)
 
 
-def _turned(part: Part) -> Part:
+def _turned(part: MeshPart) -> MeshPart:
     """With y up instead of z."""
     turn = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]], dtype=np.float64)
     normals = None if part.normals is None else part.normals @ turn.T
-    return Part(part.name, part.positions @ turn.T, normals, part.uvs, part.triangles, part.material)
+    return MeshPart(part.name, part.positions @ turn.T, normals, part.uvs, part.triangles, part.material)
 
 
-def _check(path: Path, parts: Sequence[Part]) -> None:
+def _check(path: Path, parts: Sequence[MeshPart]) -> None:
     corners = [part.positions[part.triangles.reshape(-1)] for part in parts]
     if sum(map(len, corners)) > _MAX_CORNERS:
         raise UsageError(f"{path}: expected at most {_MAX_CORNERS // 3} triangles, found {sum(map(len, corners)) // 3}")
@@ -195,7 +195,7 @@ def _plain(path: Path, data: bytes) -> bytes:
         raise UsageError(f"{path}: is no text, or a damaged one; {EXPECTED}") from error
 
 
-class _Beside(FilePathResolver):
+class _CompanionFiles(FilePathResolver):
     """The files that a model names, from wherever it was written; what cannot be used is kept in mind, since trimesh
     goes on without it."""
 
@@ -242,7 +242,7 @@ class _Said(logging.Handler):
         self.lines.append(record.getMessage())
 
 
-def _load(path: Path, beside: _Beside) -> list[Part]:
+def _load(path: Path, beside: _CompanionFiles) -> list[MeshPart]:
     logger = logging.getLogger("trimesh")
     said = _Said()
     logger.addHandler(said)
@@ -299,13 +299,13 @@ def _fault(error: Exception) -> str:
     return f"is no such model, or only a part of one; {EXPECTED}, found: {said}"
 
 
-def read_model(path: Path, *, z_up: bool = False) -> tuple[list[Part], list[str]]:
+def read_model(path: Path, *, z_up: bool = False) -> tuple[list[MeshPart], list[str]]:
     """The parts of a model, and which files it asks for that cannot be used, and why."""
     if path.suffix.lower() not in ENDINGS:
         raise UsageError(f"{path}: {EXPECTED}")
     if not path.is_file():
         raise UsageError(f"{path}: is {'a folder' if path.is_dir() else 'not there'}; {EXPECTED}")
-    beside = _Beside(path)
+    beside = _CompanionFiles(path)
     try:
         parts = _load(path, beside)
     except UsageError:

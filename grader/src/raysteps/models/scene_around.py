@@ -11,7 +11,7 @@ import numpy as np
 
 from raysteps.common.files import write_out
 from raysteps.models import TexturePlace
-from raysteps.models.mesh_file import Floats, Material, Part, mean_color
+from raysteps.models.mesh_file import Floats, Material, MeshPart, mean_color
 
 _WIDTH, _HEIGHT = 640, 480
 _ANGLE = 35.0  # degrees, upright
@@ -34,12 +34,12 @@ def _rows(values: Floats) -> str:
     return "\n".join(map(_row, values))
 
 
-def _used(parts: Sequence[Part]) -> Floats:
+def _used(parts: Sequence[MeshPart]) -> Floats:
     """The corners of all triangles."""
     return np.concatenate([part.positions[part.triangles.reshape(-1)] for part in parts])
 
 
-def _sized(parts: Sequence[Part]) -> list[Part]:
+def _sized(parts: Sequence[MeshPart]) -> list[MeshPart]:
     """1 to 10 units large, by a power of ten: shadow rays start 0.001 off a surface."""
     corners = _used(parts)
     size = np.linalg.norm(np.ptp(corners, axis=0))
@@ -57,23 +57,23 @@ def _view(corners: Floats) -> tuple[Floats, Floats]:
     return center + _MARGIN * far * _FROM, center
 
 
-def _floor(corners: Floats) -> Part:
+def _floor(corners: Floats) -> MeshPart:
     """A square below everything, ten times as wide; a little lower, so that it does not lie in another one."""
     low, high = corners.min(axis=0), corners.max(axis=0)
     size = float(np.linalg.norm(high - low))
     x, z = (low + high)[[0, 2]] / 2
     y = low[1] - 1e-3 * size
     positions = np.array([[x + 5 * size * i, y, z + 5 * size * k] for i, k in ((-1, 1), (1, 1), (1, -1), (-1, -1))])
-    return Part("floor", positions, None, None, np.array([[0, 1, 2], [0, 2, 3]]), _FLOOR)
+    return MeshPart("floor", positions, None, None, np.array([[0, 1, 2], [0, 2, 3]]), _FLOOR)
 
 
-def _all_of(parts: Sequence[Part], corners: Floats) -> tuple[list[Part], bool]:
+def _all_of(parts: Sequence[MeshPart], corners: Floats) -> tuple[list[MeshPart], bool]:
     """What is drawn, and whether the model brings its own light; then it is left alone with it."""
     lit = any(part.material.emission.any() for part in parts)
     return [*parts, *([] if lit else [_floor(corners)])], lit
 
 
-def _plain_color(part: Part) -> Floats:
+def _plain_color(part: MeshPart) -> Floats:
     """Without its texture."""
     material = part.material
     if material.texture is None or part.uvs is None:
@@ -81,7 +81,7 @@ def _plain_color(part: Part) -> Floats:
     return mean_color(material.texture)
 
 
-def _pbrt_material(part: Part, texture: str | None) -> Iterator[str]:
+def _pbrt_material(part: MeshPart, texture: str | None) -> Iterator[str]:
     material = part.material
     if material.metal_roughness is not None:
         yield (
@@ -99,7 +99,7 @@ def _pbrt_material(part: Part, texture: str | None) -> Iterator[str]:
         yield f'Material "diffuse" {reflectance}'
 
 
-def _pbrt_part(part: Part, texture: str | None) -> Iterator[str]:
+def _pbrt_part(part: MeshPart, texture: str | None) -> Iterator[str]:
     yield f"\n# {' '.join(part.name.split())}\nAttributeBegin"
     if part.material.emission.any():
         yield f'AreaLightSource "diffuse" "rgb L" [{_row(part.material.emission)}]'
@@ -113,7 +113,7 @@ def _pbrt_part(part: Part, texture: str | None) -> Iterator[str]:
     yield f'"integer indices" [\n{rows}\n]\nAttributeEnd'
 
 
-def _pbrt_lines(parts: Sequence[Part], textures: Sequence[str | None], files: dict[str, str]) -> Iterator[str]:
+def _pbrt_lines(parts: Sequence[MeshPart], textures: Sequence[str | None], files: dict[str, str]) -> Iterator[str]:
     corners = _used(parts)
     eye, center = _view(corners)
     drawn, lit = _all_of(parts, corners)
@@ -132,7 +132,7 @@ def _pbrt_lines(parts: Sequence[Part], textures: Sequence[str | None], files: di
         yield from _pbrt_part(part, texture)
 
 
-def _textures_of(parts: Sequence[Part], path: Path, where: TexturePlace) -> tuple[list[str | None], dict[str, str]]:
+def _textures_of(parts: Sequence[MeshPart], path: Path, where: TexturePlace) -> tuple[list[str | None], dict[str, str]]:
     """The name of each part's texture, and what stands for the file of each name: that of a PNG which is written beside
     the scene, or the PNG itself (RFC 2397)."""
     names: list[str | None] = []
@@ -154,14 +154,14 @@ def _textures_of(parts: Sequence[Part], path: Path, where: TexturePlace) -> tupl
     return names, {f"texture-{number}": file for number, file in enumerate(files.values(), 1)}
 
 
-def write_pbrt(parts: Sequence[Part], path: Path, *, textures: TexturePlace) -> None:
+def write_pbrt(parts: Sequence[MeshPart], path: Path, *, textures: TexturePlace) -> None:
     """The scene, and its textures where they are wanted."""
     parts = _sized(parts)
     lines = _pbrt_lines(parts, *_textures_of(parts, path, textures))
     write_out(path, ("\n".join(lines) + "\n").encode())
 
 
-def _nff_lines(parts: Sequence[Part]) -> Iterator[str]:
+def _nff_lines(parts: Sequence[MeshPart]) -> Iterator[str]:
     corners = _used(parts)
     eye, center = _view(corners)
     yield f"b {_row(_IN_PART_ONE * _SKY)}"
@@ -183,6 +183,6 @@ def _nff_lines(parts: Sequence[Part]) -> Iterator[str]:
                 yield f"pp 3\n{_rows(np.hstack([corners, part.normals[triangle]]))}"
 
 
-def write_nff(parts: Sequence[Part], path: Path) -> None:
+def write_nff(parts: Sequence[MeshPart], path: Path) -> None:
     """For part one: every texture as the one colour that it has from far away."""
     write_out(path, ("\n".join(_nff_lines(_sized(parts))) + "\n").encode())

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from raysteps.common.errors import UsageError
-from raysteps.common.files import OwnedFolder, one_at_a_time, usable_folder, write_bytes
+from raysteps.common.files import OwnedFolder, file_lock, usable_folder, write_bytes
 from raysteps.common.local_server import HTML, LocalHandler, LocalServer
 from raysteps.common.markdown import mathml, unlinked, with_formulas, with_targets
 from raysteps.course.manifest import ImageCase, Step, course_steps
@@ -42,7 +42,7 @@ from raysteps.play.web_kit import MAX_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
 from raysteps.report.wording import inspect_options
 from raysteps.results.statuses import NOT_BUILT
-from raysteps.toolchain.kit_artifacts import paced
+from raysteps.toolchain.kit_artifacts import rate_limited
 
 Say = Callable[[str], None]
 
@@ -217,7 +217,7 @@ class PlayPage:
         self._project = project
         self._registry = registry
         self._say_once = say
-        self._say = paced(say)
+        self._say = rate_limited(say)
         self._cache = cache or project.build / "play"
         self._packages = self._cache / "packages"
         self._clang = WebClang(fetch(CLANG, self._packages, registry, self._say), self._cache, say)
@@ -230,7 +230,7 @@ class PlayPage:
 
     def make(self) -> Path:
         """The folder, in which index.html is the page. A page that is served already keeps its own."""
-        with one_at_a_time(self._cache / ".lock", lambda: self._say_once("waiting for another command")):
+        with file_lock(self._cache / ".lock", lambda: self._say_once("waiting for another command")):
             self._collect()
             folder = written_once(self._cache, "site", self._content)
             packages = [self._packages / package.folder for package in (CLANG, *EDITOR)]

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import one_at_a_time, write_bytes
+from raysteps.common.files import file_lock, write_bytes
 from raysteps.common.text import shorten
 from raysteps.play.packages import extract, new_folder
 
@@ -85,7 +85,7 @@ class WebClang:
 
         place = self._for_this_machine
         path = place.with_name(f"{place.name}.bin")
-        with one_at_a_time(place.with_name(f"{place.name}.lock"), lambda: self._say("waiting for another command")):
+        with file_lock(place.with_name(f"{place.name}.lock"), lambda: self._say("waiting for another command")):
             if path.is_file():
                 try:
                     return wasmtime.Module.deserialize_file(self._engine, str(path))

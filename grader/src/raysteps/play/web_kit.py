@@ -70,7 +70,7 @@ class Source:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class ObjectRequest:
     """An object that is to be made."""
 
     source: Source
@@ -79,9 +79,9 @@ class Wanted:
     headers: str = ""  # that are precompiled
 
 
-def _own(path: str) -> Wanted:
+def _own(path: str) -> ObjectRequest:
     """What only the page has, so that no other compiler warns about it."""
-    return Wanted(Source(path), flags=(*_WARNINGS, "-Werror"), headers=_KIT_HEADERS)
+    return ObjectRequest(Source(path), flags=(*_WARNINGS, "-Werror"), headers=_KIT_HEADERS)
 
 
 def _words_of(entry: Mapping[str, str]) -> list[str]:
@@ -139,7 +139,7 @@ _OF_CORE = re.compile(r'#include "core/(\w+\.hpp)"')
 _ASKED = re.compile(r"""include\s*\(?\s*[<"]([^">]+)[">]""")  # by #include and by __has_include
 
 
-def looked_for(root: Path, made_of: str) -> list[str]:
+def dependencies_of(root: Path, made_of: str) -> list[str]:
     """Files of the kit, from its root, on which a result depends: those that the compiler has read, as it writes them
     for Make, and all names below which it may have looked for what these include, found or not."""
     paths = made_of.partition(":")[2].replace("\\\n", " ").split()
@@ -182,7 +182,7 @@ class WebKit:
         self.model = "reference" if project.has_reference else "stub"
         self._cache = clang.cache
         self._used: set[Path] = set()
-        self._made_before: dict[Wanted, Path] = {}
+        self._made_before: dict[ObjectRequest, Path] = {}
         self._header_marks: dict[str, str] = {}
         self._turn = threading.Lock()  # to compile headers, which several sources wait for
 
@@ -246,7 +246,7 @@ class WebKit:
             for level, header in itertools.product(("-O2", "-O1", "-Oz"), (False, True))
         }
 
-    def _made(self, wanted: Wanted) -> Path:
+    def _made(self, wanted: ObjectRequest) -> Path:
         """The object."""
         source = wanted.source
         words = [*self._commands[wanted.level, False], *_INCLUDES, *source.words, *wanted.flags]
@@ -255,7 +255,7 @@ class WebKit:
         text = (self._project.root / source.path).read_text("utf-8")
         return self._compiled("o", words, f"{_KIT}/{source.path}", text)
 
-    def _precompiled(self, wanted: Wanted) -> Path:
+    def _precompiled(self, wanted: ObjectRequest) -> Path:
         """The headers of a source, as the compiler keeps them in memory. Their text has to stay beside that."""
         defined = [flag for flag in wanted.flags if flag.startswith("-D") and not flag.startswith(_MAIN)]
         words = [*self._commands[wanted.level, True], *_INCLUDES, _QUIET, *defined, *_PORTABLE]
@@ -278,7 +278,7 @@ class WebKit:
                 more = ["-dependency-file", f"{_WORK}/read", "-MT", "made"]
                 command = [*(named.get(word, word) for word in words), *more]
                 self._clang.make(command, {**self._places, _WORK: Path(folder)})
-                names = looked_for(self._project.root, (Path(folder) / "read").read_text("utf-8"))
+                names = dependencies_of(self._project.root, (Path(folder) / "read").read_text("utf-8"))
                 write_bytes(listed, "".join(f"{name}\n" for name in names).encode())
                 target = self._by_headers(listed, ending)
                 write_bytes(target, (Path(folder) / "made").read_bytes())
@@ -291,7 +291,7 @@ class WebKit:
         return self._place(_digest(listed.stem, *marks), ending)
 
     @cached_property
-    def _wanted(self) -> dict[str, list[Wanted]]:
+    def _wanted(self) -> dict[str, list[ObjectRequest]]:
         """What is to be made, by the name of the part that it belongs to. `kit` is what programs take what they need
         from; `figures` is the site's."""
         of = self._sources.of
@@ -304,25 +304,25 @@ class WebKit:
             "web": [
                 _own(_PAGE_MAIN),
                 *(
-                    Wanted(source, flags=(_QUIET,) if source in inspect else _RAYTRACE, headers=_KIT_HEADERS)
+                    ObjectRequest(source, flags=(_QUIET,) if source in inspect else _RAYTRACE, headers=_KIT_HEADERS)
                     for source in of("raytrace-app")
                 ),
-                *(Wanted(source, "-Oz", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
+                *(ObjectRequest(source, "-Oz", (*_TESTING, _TEST_MAIN)) for source in of("raysteps-testing")),
             ],
             "exceptions": [_own(_EXCEPTIONS)],
-            "inspect": [Wanted(source, headers=_KIT_HEADERS) for source in inspect],
+            "inspect": [ObjectRequest(source, headers=_KIT_HEADERS) for source in inspect],
             "figures": [_own(_FIGURES_MAIN)],
             "kit": [
-                *(Wanted(source, headers=_KIT_HEADERS) for source in libraries),
+                *(ObjectRequest(source, headers=_KIT_HEADERS) for source in libraries),
                 *(_own(name) for name in own if name not in beside),
             ],
         }
         for step in self.steps:
             model = of(f"step-{step.number}-{self.model}-raw")
-            parts[f"step-{step.number}"] = [Wanted(source, headers=_KIT_HEADERS) for source in model]
+            parts[f"step-{step.number}"] = [ObjectRequest(source, headers=_KIT_HEADERS) for source in model]
         for step in self._shown:
             tests = of(f"test-{step.number}-objects")
-            parts[f"test-{step.number}"] = [Wanted(source, "-O1", _TESTING, _TEST_HEADERS) for source in tests]
+            parts[f"test-{step.number}"] = [ObjectRequest(source, "-O1", _TESTING, _TEST_HEADERS) for source in tests]
         if not all(parts.values()):
             raise GraderFault("CMake's list of commands lacks parts of the kit")
         return parts

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from raysteps.common.files import one_at_a_time, usable_folder
+from raysteps.common.files import file_lock, usable_folder
 from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
@@ -51,7 +51,7 @@ def check_steps(
     where mistakes must be learned before they can be named, or larger pictures are still to be drawn."""
     with ExitStack() as ends:
         lock = project.build / "check.lock"
-        ends.enter_context(one_at_a_time(lock, lambda: say("waiting for another command, which checks here")))
+        ends.enter_context(file_lock(lock, lambda: say("waiting for another command, which checks here")))
         kit = build_kit(project, say).in_one_process()
         usable_folder(project.build / "check")
         submission = load_submission(project.steps, kit.steps)

@@ -11,8 +11,8 @@ from raysteps.common.platform import processor_count
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.grading.self_check import name_crash, self_check
-from raysteps.grading.step import clear
-from raysteps.progress.standing import Kind, Standing, next_of, remember, standings
+from raysteps.grading.step import clear_old_results
+from raysteps.progress.standing import Kind, StepProgress, next_of, save_progress, standings
 from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import try_student_page
 from raysteps.results.model import Results, StepResult
@@ -93,7 +93,7 @@ def check_and_keep(
     out = project.build / "check"
     before = _found_before(out, kit, chosen)
     kept = [] if before is None else before.steps
-    clear(out, [step for step in kit.steps if step.id not in {result.id for result in kept}], chosen)
+    clear_old_results(out, [step for step in kit.steps if step.id not in {result.id for result in kept}], chosen)
     if before is not None:
         write_results(before, out)  # whatever becomes of the rest
     noted = False
@@ -103,7 +103,7 @@ def check_and_keep(
         whole = _with_steps(results, [*kept, *results.steps]) if kept else results
         write_results(whole, out)
         if not noted:
-            remember(project, results, submission.sources)
+            save_progress(project, results, submission.sources)
             note_attempt(out, whole, [step.id for step in chosen], datetime.now().astimezone())
             noted = True
         found = standings(project)
@@ -123,7 +123,7 @@ def check_and_keep(
         raise
 
 
-def own_progress(project: Project, folder: Path, found: Sequence[Standing]) -> OwnProgress:
+def own_progress(project: Project, folder: Path, found: Sequence[StepProgress]) -> OwnProgress:
     """What the report of one's own steps in that folder shows beside their results."""
     changed = frozenset(standing.step.id for standing in found if standing.kind in _NEWER)
     return OwnProgress(read_attempts(folder), changed, next_of(found), project.has_reference)

@@ -25,7 +25,7 @@ Confirm = Callable[[str], bool]
 
 
 @dataclass(frozen=True)
-class Loss:
+class LostLines:
     """What a step's file has beyond the stub: lines of the student's own, and lines of the stub that are gone."""
 
     own: tuple[str, ...]
@@ -40,7 +40,7 @@ def own_file(project: Project, step: Step) -> Path:
     return project.steps / step.path
 
 
-def loss(project: Project, step: Step) -> Loss | None:
+def lost_lines(project: Project, step: Step) -> LostLines | None:
     """None where there is nothing to lose: no file, or the stub as it was."""
     try:
         data = own_file(project, step).read_bytes()
@@ -52,7 +52,7 @@ def loss(project: Project, step: Step) -> Loss | None:
     lines = difflib.ndiff(stub.splitlines(), data.decode("utf-8", "replace").splitlines())
     changes = [line for line in lines if line[:1] in "+-"]
     own = tuple(printable(line[2:]) for line in changes if line[0] == "+" and line[2:].strip())
-    return Loss(own, sum(line[0] == "-" and bool(line[2:].strip()) for line in changes))
+    return LostLines(own, sum(line[0] == "-" and bool(line[2:].strip()) for line in changes))
 
 
 def _backup(project: Project, step: Step, data: bytes) -> Path:
@@ -73,7 +73,7 @@ def put_back(project: Project, step: Step) -> Path | None:
     return kept
 
 
-def print_loss(console: Console, lost: Loss, name: str) -> None:
+def print_loss(console: Console, lost: LostLines, name: str) -> None:
     """What is at stake, before anything is done."""
     console.print(f"{escape(name)}: {lost}.", highlight=False, soft_wrap=True)
     for line in lost.own[:_MAX_SHOWN]:
@@ -101,7 +101,7 @@ def reset(project: Project, step: Step, console: Console, *, yes: bool, confirm:
     name = shown(project, step, step.file)
     if own_file(project, step).is_dir():
         raise UsageError(f"{name}: is a folder; expected a file. Move the folder away, then reset the step again")
-    lost = loss(project, step)
+    lost = lost_lines(project, step)
     if lost is None and own_file(project, step).is_file():
         console.print(f"{escape(name)} is the stub already.", highlight=False, soft_wrap=True)
         return 0

@@ -60,7 +60,7 @@ def _summary(result: StepResult) -> str:
     return ", ".join(f"{name} {sum(item.passed for item in items)}/{len(items)}" for name, items in kinds if items)
 
 
-def recall(project: Project) -> dict[str, LastCheck]:
+def load_progress(project: Project) -> dict[str, LastCheck]:
     """By step id. A file that cannot be read is as good as none: the next check writes it anew."""
     try:
         table = json.loads(_place(project).read_text(encoding="utf-8"))
@@ -71,9 +71,9 @@ def recall(project: Project) -> dict[str, LastCheck]:
         return {}
 
 
-def remember(project: Project, results: Results, sources: Mapping[str, bytes]) -> None:
+def save_progress(project: Project, results: Results, sources: Mapping[str, bytes]) -> None:
     """Keeps what came of a check, beside what is known of the other steps."""
-    known = recall(project)
+    known = load_progress(project)
     for result in results.steps:
         if result.id in sources:
             mark = code_mark(sources[result.id])
@@ -85,7 +85,7 @@ Kind = Literal["missing", "unreadable", "not-started", "unchecked", "changed", "
 
 
 @dataclass(frozen=True)
-class Standing:
+class StepProgress:
     """One step. `last` is what the last check said, of this code (`checked`) or of earlier code (`changed`)."""
 
     step: Step
@@ -141,32 +141,32 @@ def misplaced(project: Project, step: Step) -> str:
         return ""
 
 
-def standing_of(project: Project, step: Step, last: LastCheck | None) -> Standing:
+def step_progress(project: Project, step: Step, last: LastCheck | None) -> StepProgress:
     """Compares the file with the stub and with what was checked last."""
     try:
         source = own_source(project, step)
     except OSError as error:
-        return Standing(step, "unreadable", closed=reason(error))
+        return StepProgress(step, "unreadable", closed=reason(error))
     except RejectedFile:
-        return Standing(step, "unreadable")
+        return StepProgress(step, "unreadable")
     if source is None:
-        return Standing(step, "missing", closed=misplaced(project, step))
+        return StepProgress(step, "missing", closed=misplaced(project, step))
     text = source.decode("utf-8", "replace")
     if same_code(text, pristine_stub(project, step)):
-        return Standing(step, "not-started", unfinished=step.functions)
+        return StepProgress(step, "not-started", unfinished=step.functions)
     left = tuple(unfinished_functions(text, step))
     if last is None or last.status == "not-started":
-        return Standing(step, "unchecked", unfinished=left)
-    return Standing(step, "checked" if last.code == code_mark(source) else "changed", last, left)
+        return StepProgress(step, "unchecked", unfinished=left)
+    return StepProgress(step, "checked" if last.code == code_mark(source) else "changed", last, left)
 
 
-def standings(project: Project) -> list[Standing]:
+def standings(project: Project) -> list[StepProgress]:
     """Of all steps, in order."""
-    known = recall(project)
-    return [standing_of(project, step, known.get(step.id)) for step in course_steps(project)]
+    known = load_progress(project)
+    return [step_progress(project, step, known.get(step.id)) for step in course_steps(project)]
 
 
-def next_of(found: Sequence[Standing], after: Step | None = None) -> Step | None:
+def next_of(found: Sequence[StepProgress], after: Step | None = None) -> Step | None:
     """The first step that is not done; a bonus comes when the others are. `after`: the one beyond that step."""
     waiting = [standing.step for standing in found if not standing.is_done and standing.step != after]
     waiting.sort(key=lambda step: (after is not None and step.index < after.index, step.bonus, step.index))
@@ -200,7 +200,7 @@ def _points(project: Project, steps: Iterable[Step]) -> str:
     return tenths(sum(max_points(step, judged=project.has_reference) for step in steps))
 
 
-def _color(standing: Standing) -> str:
+def _color(standing: StepProgress) -> str:
     if standing.is_done:
         return "green"
     if standing.kind == "not-started":
@@ -209,11 +209,11 @@ def _color(standing: Standing) -> str:
     return "red" if bad else "yellow"
 
 
-def _has_points(standing: Standing) -> bool:
+def _has_points(standing: StepProgress) -> bool:
     return standing.last is not None and standing.last.points > 0
 
 
-def print_list(project: Project, console: Console, found: list[Standing], following: Step | None) -> None:
+def print_list(project: Project, console: Console, found: list[StepProgress], following: Step | None) -> None:
     """One row for each step, with the points that `check` shows; an arrow stands at the next one. Where the kit has
     several parts, each has a row of its own before its steps."""
     table = Table(box=None, pad_edge=False)
@@ -255,13 +255,13 @@ def list_steps(project: Project, console: Console) -> int:
     return 0
 
 
-def _to_type(own: str, standing: Standing) -> str:
+def _to_type(own: str, standing: StepProgress) -> str:
     """A stub is put in the place of what is broken, but not of work that is only closed: check says what to do."""
     command = "check" if standing.closed else "reset" if standing.is_broken else "watch"
     return f"{own} {command} {standing.step.number}"
 
 
-def _to_write(own: str, standing: Standing) -> str:
+def _to_write(own: str, standing: StepProgress) -> str:
     left = standing.unfinished
     if standing.kind == "checked" and standing.last is not None and standing.last.status == "does-not-build":
         return f" (it does not build: {own} check {standing.step.number} shows where)"

@@ -53,7 +53,7 @@ def _is_as_released(path: Path, listed: ListedFile) -> bool:
         raise UsageError(f"{path}: cannot be read: {reason(error)}") from error
 
 
-def usable(out: Path) -> None:
+def refuse_foreign_files(out: Path) -> None:
     """Nothing but a release as it was written may be replaced."""
     if not out.exists() or (out.is_dir() and not any(out.iterdir())):
         return
@@ -105,7 +105,7 @@ def swap(new: Path, out: Path) -> None:
         raise
     _move_along(old, out)
     try:
-        usable(old)
+        refuse_foreign_files(old)
     except UsageError as error:
         raise UsageError(
             f"{out}: was released, but the older one was changed meanwhile and is kept: {error}"
@@ -217,7 +217,7 @@ def release(
 ) -> bool:
     """Whether it was written; not where `leaks` finds something in it, or in the page to work in."""
     refuse_left_overs(out)
-    usable(out)
+    refuse_foreign_files(out)
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=f".{out.name}-new-", dir=out.parent) as name:
@@ -229,7 +229,7 @@ def release(
             say("looking for leaks")
             if any([leaks(new, out), made is not None and leaks(made, made)]):
                 return False
-            usable(out)
+            refuse_foreign_files(out)
             if page:
                 check_published(page.out)
             swap(new, out)

@@ -10,7 +10,7 @@ from raysteps.common.text import join_and
 from raysteps.course.manifest import Step, course_manifests
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
-from raysteps.course.tracked_files import places, untracked
+from raysteps.course.tracked_files import list_files, untracked_files
 from raysteps.updater.release_list import is_made_anew
 
 # The Python modules that a students' kit needs: all that its commands import, and nothing that knows answers.
@@ -191,7 +191,7 @@ _SKIPPED = {"build", ".venv", ".git"}
 
 def refuse_untracked(root: Path, files: Collection[str]) -> None:
     """Git would have none of them: notes, copies, a solution that somebody kept."""
-    new = untracked(root)
+    new = untracked_files(root)
     found = sorted(name for name in new if name in files or name == _WORKFLOW or name.startswith(f"{_OVERLAY}/"))
     if found:
         it = "it" if len(found) == 1 else "them"
@@ -233,7 +233,7 @@ def _overlay(folder: Path) -> dict[str, bytes]:
 def kit_contents(project: Project, steps: list[Step], absent: list[Step]) -> dict[str, bytes]:
     """Files by path, without those that are made: pictures, README and the list of all files."""
     chosen = {step.id for step in steps}
-    known = [place for place in places(project.root) if not _is_made(place)]
+    known = [place for place in list_files(project.root) if not _is_made(place)]
     files = {
         place.as_posix(): _readable(project.root / place)
         for place in known

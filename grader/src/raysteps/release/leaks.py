@@ -68,7 +68,7 @@ def _is_text(data: bytes) -> bool:
     return not data.translate(None, delete=bytes(set(range(256)) - set(_NOT_OF_TEXT)))
 
 
-def strange(data: bytes) -> str | None:
+def unexpected_content(data: bytes) -> str | None:
     """What is wrong with a file of another shape."""
     if data.startswith(PNG_SIGNATURE):
         return None if _is_whole_picture(data) else "a PNG that is damaged, or that holds more than a picture"
@@ -267,7 +267,7 @@ def leaks_in_history(secrets: Secrets, folder: Path) -> list[Leak]:
         return []
     found = list[Leak]()
     for place, data in _git_objects(folder):
-        problem = strange(data) if ", blob " in place else None
+        problem = unexpected_content(data) if ", blob " in place else None
         found += [Leak(place, None, "whatever it was made of", problem)] if problem else []
         found += _leaks_in(secrets, place, data)
     for path in sorted((folder / ".git").rglob("*")):
@@ -294,7 +294,7 @@ def _in_file(secrets: Secrets, folder: Path, path: Path) -> Iterator[Leak]:
 
 
 def _in_data(secrets: Secrets, place: str, data: bytes) -> Iterator[Leak]:
-    problem = strange(data)
+    problem = unexpected_content(data)
     if problem:
         yield Leak(place, None, "whatever it was made of", problem)
     yield from _leaks_in(secrets, place, data)

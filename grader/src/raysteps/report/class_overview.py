@@ -202,7 +202,7 @@ def histogram(bars: Sequence[Bar], width: int, height: int, axis: str) -> Histog
 
 
 @dataclass(frozen=True)
-class Part:
+class BarSegment:
     """A stretch of a bar that is divided."""
 
     status: str
@@ -210,25 +210,25 @@ class Part:
     width: float
 
 
-def divided(counts: Sequence[tuple[str, int]], width: float) -> list[Part]:
+def divided(counts: Sequence[tuple[str, int]], width: float) -> list[BarSegment]:
     """One bar for all, each part as long as its share."""
     whole = sum(amount for _, amount in counts) or 1
     parts, at = [], 0.0
     for status, amount in counts:
         long = width * amount / whole
         if amount:
-            parts.append(Part(status, round(at, 2), round(long, 2)))
+            parts.append(BarSegment(status, round(at, 2), round(long, 2)))
         at += long
     return parts
 
 
 # What needs a person's eye in a class, apart from the table.
 
-Weight = Literal["bad", "warn", "note"]
+Severity = Literal["bad", "warn", "note"]
 
 
 @dataclass(frozen=True)
-class Item:
+class Notice:
     """A submission by its place in the list, or somebody who has none; and what there is to say."""
 
     row: int | None
@@ -241,10 +241,10 @@ class Group:
     """Submissions with the same thing to look at."""
 
     mark: str  # in the table; empty where the table says nothing
-    weight: Weight
+    weight: Severity
     heading: str
     why: str
-    items: Sequence[Item]
+    items: Sequence[Notice]
 
 
 def _points(value: float | None) -> str:
@@ -264,59 +264,59 @@ class _Finder:
         self._document = document
         self._rows = {one.name: (row, one) for row, one in enumerate(document.submissions)}
 
-    def _item(self, name: str, words: Sequence[str]) -> Item:
+    def _item(self, name: str, words: Sequence[str]) -> Notice:
         found = self._rows.get(name)
-        return Item(found[0] if found else None, name, words)
+        return Notice(found[0] if found else None, name, words)
 
     def _of(self, names: Sequence[str]) -> list[tuple[str, GradedSubmission]]:
         return [(name, self._rows[name][1]) for name in names if name in self._rows]
 
-    def faults(self) -> list[Item]:
+    def faults(self) -> list[Notice]:
         return [self._item(name, [first_line(one.fault)]) for name, one in self._of(self._document.faults)]
 
-    def unreadable(self) -> list[Item]:
+    def unreadable(self) -> list[Notice]:
         return [self._item(name, one.why_unread) for name, one in self._of(self._document.unreadable)]
 
-    def not_taken(self) -> list[Item]:
+    def not_taken(self) -> list[Notice]:
         found = [one for one in self._document.submissions if _has_unread_files(one)]
         return [self._item(one.name, one.not_taken) for one in found]
 
-    def late_by_file(self) -> list[Item]:
+    def late_by_file(self) -> list[Notice]:
         return [
             self._item(name, [f"{one.submitted_at}, {count(one.late.days, 'day')} begun"])
             for name, (_, one) in self._rows.items()
             if one.late is not None and _is_late_by_file(one)
         ]
 
-    def strangers(self) -> list[Item]:
+    def strangers(self) -> list[Notice]:
         named = self._of(self._document.submissions_without_student)
         return [self._item(name, [one.note] if one.note else []) for name, one in named]
 
-    def people(self, students: Sequence[NotedStudent]) -> list[Item]:
+    def people(self, students: Sequence[NotedStudent]) -> list[Notice]:
         found = []
         for one in students:
             words = [word for word in (one.id, one.name, one.email) if word]
-            found.append(Item(None, " ".join(words), [one.note] if one.note else []))
+            found.append(Notice(None, " ".join(words), [one.note] if one.note else []))
         return found
 
-    def changed(self) -> list[Item]:
+    def changed(self) -> list[Notice]:
         return [
             self._item(one.name, [f"{_points(one.before)} before, {_points(one.after)} now{one.why}"])
             for one in self._document.changed
         ]
 
-    def look_again(self) -> list[Item]:
+    def look_again(self) -> list[Notice]:
         return [
             self._item(name, one.review.look_again) for name, (_, one) in self._rows.items() if one.review.look_again
         ]
 
-    def open_requests(self) -> list[Item]:
+    def open_requests(self) -> list[Notice]:
         return [self._item(name, []) for name, (_, one) in self._rows.items() if one.review.open_requests]
 
-    def changed_by_hand(self) -> list[Item]:
+    def changed_by_hand(self) -> list[Notice]:
         return [self._item(name, one.review.changes) for name, (_, one) in self._rows.items() if one.review.changes]
 
-    def plain(self, names: Sequence[str]) -> list[Item]:
+    def plain(self, names: Sequence[str]) -> list[Notice]:
         return [self._item(name, []) for name in names]
 
 

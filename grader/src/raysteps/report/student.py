@@ -55,7 +55,7 @@ from raysteps.results.store import read_results
 
 _MAX_PIXELS = 1 << 22
 
-Place = tuple[str, str]  # step and name of the picture
+ImageKey = tuple[str, str]  # step and name of the picture
 
 
 @dataclass
@@ -105,15 +105,15 @@ def _flip(folder: Path, image: ImageResult, sides: Mapping[str, PictureData | No
     return pixel_data(gray) if gray is not None else None
 
 
-def _wrong_first(results: Results) -> Iterator[tuple[Place, ImageResult]]:
+def _wrong_first(results: Results) -> Iterator[tuple[ImageKey, ImageResult]]:
     images = [((step.id, image.name), image) for step in results.steps for image in step.images]
     return iter(sorted(images, key=lambda item: bool(item[1].passed)))
 
 
-def make_album(results: Results, folder: Path, room: int) -> dict[Place, ShownImage]:
+def make_album(results: Results, folder: Path, room: int) -> dict[ImageKey, ShownImage]:
     """As many as fit into so many characters: the wrong ones first, then the right ones, then larger ones, and maps
     last."""
-    album: dict[Place, ShownImage] = {}
+    album: dict[ImageKey, ShownImage] = {}
     for place, image in _wrong_first(results):
         sides = {"reference": _read(_path(folder, image.reference)), "mine": _read(_path(folder, image.mine))}
         size = sum(len(side.src) for side in sides.values() if side is not None)
@@ -139,7 +139,7 @@ _NEAR = 0.11  # points: a step's are whole tenths, and with a mistake at least o
 
 
 @dataclass(frozen=True)
-class Part:
+class ScorePart:
     """One of the four things that earn points."""
 
     name: str
@@ -160,7 +160,7 @@ def _together(result: StepResult) -> str:
     return "right" if result.cumulative.passed else "wrong" if result.images else "not run"
 
 
-def parts_of(result: StepResult, step: Step | None) -> list[Part]:
+def parts_of(result: StepResult, step: Step | None) -> list[ScorePart]:
     """Tests, pictures, hidden and together; without the hidden part where the kit cannot judge it. Nothing when the
     step's weights are not known."""
     if step is None:
@@ -179,7 +179,7 @@ def parts_of(result: StepResult, step: Step | None) -> list[Part]:
     explained = result.points if abs(result.points - sum(exact)) <= _NEAR else sum(exact)
     most = _in_tenths(result.max, [weight for _, _, weight in found])
     return [
-        Part(name, said, share, weight * 100, whole, earned)
+        ScorePart(name, said, share, weight * 100, whole, earned)
         for (name, (said, share), weight), whole, earned in zip(found, most, _in_tenths(explained, exact), strict=True)
     ]
 
@@ -189,7 +189,7 @@ def _in_tenths(total: float, weights: Sequence[float]) -> list[float]:
     return [part / 10 for part in apportion(round(total * 10), weights)]
 
 
-def rest_of(result: StepResult, parts: Sequence[Part]) -> float:
+def rest_of(result: StepResult, parts: Sequence[ScorePart]) -> float:
     """Points that the parts do not account for, as when an older kit weighed them otherwise."""
     rest = result.points - sum(part.earned for part in parts)
     return round(float(rest), 1) if parts and abs(rest) > _NEAR else 0.0
@@ -198,7 +198,7 @@ def rest_of(result: StepResult, parts: Sequence[Part]) -> float:
 # What people added to a step or to a whole submission.
 
 
-def parts_that_count(result: StepResult, step: Step | None) -> list[Part]:
+def parts_that_count(result: StepResult, step: Step | None) -> list[ScorePart]:
     """As `parts_of`, with what a person changed in them."""
     review = result.review
     if review is None:
@@ -400,7 +400,7 @@ def hint_views(hints: Sequence[str]) -> list[dict[str, str]]:
 
 
 def step_view(
-    result: StepResult, step: Step | None, album: Mapping[Place, ShownImage], has_reference: bool
+    result: StepResult, step: Step | None, album: Mapping[ImageKey, ShownImage], has_reference: bool
 ) -> dict[str, object]:
     """All that the page says of a step; `has_reference`: its reader has the whole kit, and every command."""
     status = result.shown
@@ -540,7 +540,7 @@ def _history(results: Results, views: Mapping[str, Mapping[str, Any]]) -> Histor
     return history_of(results, {step: f"{view['number']} {view['title']}" for step, view in views.items()})
 
 
-def _sums(parts: Sequence[Part]) -> dict[str, float]:
+def _sums(parts: Sequence[ScorePart]) -> dict[str, float]:
     return {name: round(sum(part.earned for part in parts if part.name == name), 1) for name in _PARTS}
 
 
@@ -563,7 +563,7 @@ def student_page(
 
 def _page(
     results: Results,
-    album: Mapping[Place, ShownImage],
+    album: Mapping[ImageKey, ShownImage],
     steps: Sequence[Step],
     progress: OwnProgress,
 ) -> str:

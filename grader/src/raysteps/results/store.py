@@ -65,10 +65,10 @@ def read_results(path: Path) -> Results:
 
 # Where hidden cases that went wrong are kept, below the folder of results.json.
 
-FOLDER = "cases"
+CASES_FOLDER = "cases"
 
 
-def place_of(number: str, function: str) -> str:
+def case_path(number: str, function: str) -> str:
     """One file for each function of a step."""
     name = re.sub(r"[^a-z0-9]+", "-", function.lower()).strip("-")
-    return f"{FOLDER}/{number}-{name}.json"
+    return f"{CASES_FOLDER}/{number}-{name}.json"

@@ -66,7 +66,7 @@ _WHY_BROKEN = {
 
 
 @dataclass(frozen=True)
-class _Ended:
+class _TrustedOutcome:
     """How the trusted program ended."""
 
     code: int
@@ -155,7 +155,7 @@ class Files:
 
 
 @dataclass(frozen=True)
-class Trusted:
+class TrustedProcess:
     """The trusted program, running."""
 
     process: StartedProcess
@@ -165,10 +165,10 @@ class Trusted:
 
 # Starts the trusted program, which is a task of its own, behind a fence: it reads what a box sends, and should that
 # ever lead it astray, it finds no more than its inputs.
-Start = Callable[[Task, Files, ExitStack], Trusted]
+Start = Callable[[Task, Files, ExitStack], TrustedProcess]
 
 
-def _run_outside(task: Task, pipes: tuple[int, int], start: Start) -> _Ended:
+def _run_outside(task: Task, pipes: tuple[int, int], start: Start) -> _TrustedOutcome:
     """With its ends of the wire, which it alone holds from then on."""
     assert task.beside is not None
     limits = task.limits
@@ -192,10 +192,10 @@ def _run_outside(task: Task, pipes: tuple[int, int], start: Start) -> _Ended:
         said, complained = _text(stdout, limits.output_kb), _text(stderr, _ERRORS_KB)
         if code is None:
             raise GraderFault(f"the program beside the box cannot be started: {_quoted(complained)}")
-        return _Ended(code, said, complained, outputs, time.monotonic() - begin, cpu_seconds, timed_out)
+        return _TrustedOutcome(code, said, complained, outputs, time.monotonic() - begin, cpu_seconds, timed_out)
 
 
-def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
+def _result(inside: TaskResult, outside: _TrustedOutcome) -> TaskResult:
     outcome = replace(inside.outcome, stdout=outside.stdout)
     cpu_seconds = inside.cpu_seconds + outside.cpu_seconds
     if 0 <= outside.code < _CLOSED:  # nothing was left to ask: whatever the box does afterwards
@@ -218,7 +218,7 @@ def _result(inside: TaskResult, outside: _Ended) -> TaskResult:
     raise GraderFault(f"the program beside the box ended with {outside.code}: {said}")
 
 
-class Asking:
+class TrustedRun:
     """The program beside a task, which runs in a thread of its own from the beginning."""
 
     def __init__(self, task: Task, pool: ThreadPoolExecutor, start: Start) -> None:
@@ -227,7 +227,7 @@ class Asking:
         self.wire = Wire(to_box, from_box)
         self._ended = pool.submit(self._run, task, (to_home, from_home), start)
 
-    def _run(self, task: Task, pipes: tuple[int, int], start: Start) -> _Ended:
+    def _run(self, task: Task, pipes: tuple[int, int], start: Start) -> _TrustedOutcome:
         try:
             return _run_outside(task, pipes, start)
         finally:
@@ -239,13 +239,13 @@ class Asking:
 
 
 @contextmanager
-def asking(task: Task, start: Start) -> Iterator[Asking | None]:
+def running_beside(task: Task, start: Start) -> Iterator[TrustedRun | None]:
     """None for a task that runs alone."""
     if task.beside is None:
         yield None
         return
     with ThreadPoolExecutor(max_workers=1) as pool:
-        asked = Asking(task, pool, start)
+        asked = TrustedRun(task, pool, start)
         try:
             yield asked
         finally:

@@ -13,12 +13,12 @@ from pathlib import Path
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import printable, shorten
-from raysteps.sandbox.beside import Files, Trusted, asking, readable, trusted_limits, unwrapped
-from raysteps.sandbox.cgroups import Group, find_parents, new_group
+from raysteps.sandbox.beside import Files, TrustedProcess, readable, running_beside, trusted_limits, unwrapped
+from raysteps.sandbox.cgroups import Cgroup, find_parents, new_cgroup
 from raysteps.sandbox.lockdown import syscall_filter
 from raysteps.sandbox.monitor import MonitorReport, Usage, adopting_orphans, descendants, monitor, reap, usage_of
 from raysteps.sandbox.namespaces import AsUser, NamespaceMode, compiler_command, root_words, tool
-from raysteps.sandbox.rlimits import counts_per_namespace, limit_words, threads_of_user, words_of
+from raysteps.sandbox.rlimits import counts_per_namespace, prlimit_command, prlimit_options, threads_of_user
 from raysteps.sandbox.task import Input, Isolation, Limits, Task, TaskResult
 from raysteps.sandbox.task_dir import PathMap, TaskDir, fresh_task_dir, nameless_file
 from raysteps.sandbox.users import can_lend_users, lent_user
@@ -81,10 +81,10 @@ class StartupPipes:
 _DYING_SECONDS = 60.0  # of processes that the kernel has killed already, however busy it is
 
 
-class Running:
+class NamespacedTask:
     """The processes of one task, from outside."""
 
-    def __init__(self, process: "subprocess.Popen[bytes]", first: int, group: Group | None) -> None:
+    def __init__(self, process: "subprocess.Popen[bytes]", first: int, group: Cgroup | None) -> None:
         self._process = process
         self._first = first
         self._group = group
@@ -185,7 +185,7 @@ class Bubblewrap:
 
     def _start_words(self, task: Task, user: int | None) -> list[str]:
         """What sets the limits and becomes the user."""
-        return limit_words(task.limits, memory=self._parents is None) + self._mode.before_start(task.limits, user)
+        return prlimit_command(task.limits, memory=self._parents is None) + self._mode.before_start(task.limits, user)
 
     def _words(
         self, task: Task, inside: PathMap, words_inside: list[str], user: int | None
@@ -225,7 +225,7 @@ class Bubblewrap:
         fences = [] if self._filter is None else [nameless_file(self._filter, stack)]
         return fences, [word for fd in fences for word in ("--seccomp", str(fd))]
 
-    def _start_trusted(self, task: Task, files: Files, stack: ExitStack) -> Trusted:
+    def _start_trusted(self, task: Task, files: Files, stack: ExitStack) -> TrustedProcess:
         """In namespaces of its own, as another user than the box's: it sees its inputs and the system's libraries, and
         writes to the folder of its outputs."""
         user = stack.enter_context(lent_user()) if self._lends_users else None
@@ -241,7 +241,7 @@ class Bubblewrap:
         options_fd = nameless_file("".join(f"{word}\0" for word in options).encode(), stack)
         process = subprocess.Popen(
             [
-                *(tool("prlimit"), *words_of(trusted_limits(task.limits))),
+                *(tool("prlimit"), *prlimit_options(trusted_limits(task.limits))),
                 *self._mode.before_start(task.limits, user),
                 *(self._program, "--args", str(options_fd), "--"),
                 *command,
@@ -261,16 +261,16 @@ class Bubblewrap:
             code = control.exit_code()
             return unwrapped(code) if code is not None else -signal.SIGKILL if status in _KILLED else None
 
-        return Trusted(process, exit_code, inside.outputs)
+        return TrustedProcess(process, exit_code, inside.outputs)
 
     def run(self, task: Task) -> TaskResult:
         with ExitStack() as stack:
-            asked = stack.enter_context(asking(task, self._start_trusted))
+            asked = stack.enter_context(running_beside(task, self._start_trusted))
             wire = None if asked is None else asked.wire
             stack.enter_context(adopting_orphans())
             user = stack.enter_context(lent_user()) if self._lends_users else None
             place = stack.enter_context(fresh_task_dir(user))
-            group = stack.enter_context(new_group(self._parents, task.limits)) if self._parents else None
+            group = stack.enter_context(new_cgroup(self._parents, task.limits)) if self._parents else None
             inside, words = self._inside(task, place, stack, trusted=False)
             control = StartupPipes(stack)
             stdin = nameless_file(task.stdin, stack) if wire is None else wire.stdin
@@ -299,7 +299,7 @@ class Bubblewrap:
             first = control.first_process()
             if first is None:
                 raise _cannot_start(process)
-            running = Running(process, first, group)
+            running = NamespacedTask(process, first, group)
             stack.callback(running.close)
             stack.callback(running.kill)
             if group is not None:

@@ -32,7 +32,7 @@ class Parents:
         return list(dict.fromkeys(path for path in (self.memory, self.pids, self.cpu) if path is not None))
 
 
-class Group:
+class Cgroup:
     """The group of one task."""
 
     def __init__(self, parents: Parents, name: str, limits: Limits) -> None:
@@ -143,7 +143,7 @@ def _is_usable(parents: Parents) -> bool:
     """Tries it once, with one process of its own."""
     try:
         command = ["sleep", "60"]
-        with new_group(parents, Limits()) as group, subprocess.Popen(command) as process:
+        with new_cgroup(parents, Limits()) as group, subprocess.Popen(command) as process:
             try:
                 group.join(process.pid)
                 group.usage()
@@ -193,10 +193,10 @@ def find_parents() -> Parents | None:
 
 
 @contextmanager
-def new_group(parents: Parents, limits: Limits) -> Iterator[Group]:
+def new_cgroup(parents: Parents, limits: Limits) -> Iterator[Cgroup]:
     name = f"{_PREFIX}{os.getpid()}-{secrets.token_hex(6)}"
     try:
-        group = Group(parents, name, limits)
+        group = Cgroup(parents, name, limits)
         yield group
     finally:
         for parent in parents.all():

@@ -24,7 +24,7 @@ def processes_word(most: int) -> str:
     return f"--nproc={most}"
 
 
-def words_of(limits: dict[str, int]) -> list[str]:
+def prlimit_options(limits: dict[str, int]) -> list[str]:
     """For prlimit: limits by the names that `resource` has for them."""
     return [f"--{name.removeprefix('RLIMIT_').lower()}={most}" for name, most in limits.items()]
 
@@ -35,7 +35,7 @@ def cpu_seconds_of_a_process(limits: Limits) -> int:
     return math.ceil(2 * limits.cpu_seconds) + 1
 
 
-def limit_words(limits: Limits, *, memory: bool) -> list[str]:
+def prlimit_command(limits: Limits, *, memory: bool) -> list[str]:
     """A command that sets the limits for the command that follows it."""
     file = limits.file_mb * _MEGABYTE
     words = [str(shutil.which("prlimit")), "--core=0", f"--fsize={file}", f"--nofile={_OPEN_FILES}"]

@@ -13,7 +13,7 @@ from typing import Any
 from raysteps.common.errors import GraderFault
 from raysteps.common.process import Outcome
 from raysteps.common.text import join_and, printable, shorten
-from raysteps.sandbox.beside import Files, Trusted, asking, readable, trusted_limits
+from raysteps.sandbox.beside import Files, TrustedProcess, readable, running_beside, trusted_limits
 from raysteps.sandbox.keepers import start_keeper
 from raysteps.sandbox.lockdown import landlock_version, scopes_signals, syscall_filter
 from raysteps.sandbox.monitor import (
@@ -124,7 +124,7 @@ class SupervisedSandbox:
             "fences": self._fences(task, inputs, folders),
         }
 
-    def _start_trusted(self, task: Task, files: Files, stack: ExitStack) -> Trusted:
+    def _start_trusted(self, task: Task, files: Files, stack: ExitStack) -> TrustedProcess:
         """As it starts a task, so that it finds no more than one does."""
         inside, settings = self._prepare(task, trusted_limits(task.limits), stack)
         status, status_end = os.pipe()
@@ -149,10 +149,10 @@ class SupervisedSandbox:
                 return -signal.SIGKILL if ended == -signal.SIGKILL else None
             return int(said) if said.lstrip(b"-").isdigit() else None
 
-        return Trusted(keeper, exit_code, inside.outputs)
+        return TrustedProcess(keeper, exit_code, inside.outputs)
 
     def _keep(self, task: Task, inside: PathMap, settings: dict[str, Any], stack: ExitStack) -> TaskResult:
-        asked = stack.enter_context(asking(task, self._start_trusted))
+        asked = stack.enter_context(running_beside(task, self._start_trusted))
         wire = None if asked is None else asked.wire
         status, status_end = os.pipe()
         stack.callback(os.close, status)

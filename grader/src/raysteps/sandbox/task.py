@@ -75,7 +75,7 @@ Word = str | Input | Output
 
 
 @dataclass(frozen=True)
-class Beside:
+class TrustedCommand:
     """A trusted program that runs outside while the task runs inside, and asks it over a wire. Its Output words are the
     outputs of the task."""
 
@@ -92,7 +92,7 @@ class Task:
     tools: bool = False  # compiler, assembler, linker and their headers; else only what a program needs to start
     inputs: tuple[Input, ...] = ()  # readable, but not named in the command
     stdin: bytes = b""
-    beside: Beside | None = None  # then it has no stdin and no stdout but the wire
+    beside: TrustedCommand | None = None  # then it has no stdin and no stdout but the wire
     abandoned: threading.Event = field(
         default_factory=threading.Event, compare=False
     )  # once set, ends the task as a limit does

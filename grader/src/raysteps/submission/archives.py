@@ -17,7 +17,7 @@ from typing import IO, Any, cast
 
 from raysteps.common.errors import UsageError
 from raysteps.submission import entries
-from raysteps.submission.entries import Entry, check_size, check_unpacked, is_out_of_sight, not_a_file, split
+from raysteps.submission.entries import FileEntry, check_size, check_unpacked, is_out_of_sight, not_a_file, split
 
 _MAX_SECONDS = 30  # of computing, for an archive: the largest that is taken needs a few
 
@@ -157,7 +157,7 @@ def _read_tar(archive: tarfile.TarFile, info: tarfile.TarInfo) -> bytes:
         return file.read(entries.MAX_SOURCE + 1)
 
 
-def _tar_entries(root: Path, raw: _Archive) -> Iterator[Entry]:
+def _tar_entries(root: Path, raw: _Archive) -> Iterator[FileEntry]:
     """The entries of a tar, plain or compressed, in their order."""
     stream = _Stream(root, raw)
     seen = 0
@@ -172,7 +172,7 @@ def _tar_entries(root: Path, raw: _Archive) -> Iterator[Entry]:
             if seen > entries.MAX_ENTRIES:
                 raise entries.too_many(root)
             kind = _kind_in_tar(info)
-            yield Entry(parts, not_a_file(kind) if kind else partial(_read_tar, archive, info))
+            yield FileEntry(parts, not_a_file(kind) if kind else partial(_read_tar, archive, info))
 
 
 # Reads a submission that is a zip. Nothing is ever unpacked to disk, and never more than a cap to memory.
@@ -212,7 +212,7 @@ def _read_zip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, root: Path) -> by
     return data
 
 
-def _zip_entries(root: Path, raw: io.FileIO) -> Iterator[Entry]:
+def _zip_entries(root: Path, raw: io.FileIO) -> Iterator[FileEntry]:
     """The entries of a zip, as its directory lists them."""
     packed = os.fstat(raw.fileno()).st_size
     with zipfile.ZipFile(_Directory(raw)) as archive:
@@ -228,7 +228,7 @@ def _zip_entries(root: Path, raw: io.FileIO) -> Iterator[Entry]:
                 raise entries.too_many(root)
             check_unpacked(root, unpacked, packed)
             kind = _kind_in_zip(info)
-            yield Entry(parts, not_a_file(kind) if kind else partial(_read_zip, archive, info, root))
+            yield FileEntry(parts, not_a_file(kind) if kind else partial(_read_zip, archive, info, root))
 
 
 DAMAGED = (
@@ -253,7 +253,7 @@ _FOREIGN = {
 FOREIGN_ENDINGS = (".rar", ".7z", ".zst")
 
 
-def archive_entries(root: Path, *, may_be_link: bool) -> Iterator[Entry]:
+def archive_entries(root: Path, *, may_be_link: bool) -> Iterator[FileEntry]:
     """The entries of an archive of a kind that can be read here."""
     with _Archive(root, may_be_link=may_be_link) as file:
         start = file.read(tarfile.BLOCKSIZE)

@@ -23,7 +23,7 @@ class RejectedFile(Exception):
 
 
 @dataclass(frozen=True)
-class Entry:
+class FileEntry:
     """Something that a submission holds. `read` counts only until the next entry is asked for."""
 
     parts: tuple[str, ...]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from raysteps.common.errors import reason
 from raysteps.submission import entries
-from raysteps.submission.entries import Entry, RejectedFile, check_size, is_out_of_sight, not_a_file, split
+from raysteps.submission.entries import FileEntry, RejectedFile, check_size, is_out_of_sight, not_a_file, split
 
 # Without O_NONBLOCK, opening a pipe that nobody writes to would wait for ever.
 _FILE = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC"))
@@ -59,7 +59,7 @@ class FolderReader:
         self._seen = 0
         self.closed: dict[tuple[str, ...], str] = {}  # and why
 
-    def entries(self) -> Iterator[Entry]:
+    def entries(self) -> Iterator[FileEntry]:
         followed = _FOLDER & ~getattr(os, "O_NOFOLLOW", 0)  # the folder itself was named by whoever grades
         handle = os.open(self._root, followed)
         try:
@@ -77,7 +77,7 @@ class FolderReader:
                 names.append(child.name)
         return sorted(names)
 
-    def _below(self, folder: int, parts: tuple[str, ...]) -> Iterator[Entry]:
+    def _below(self, folder: int, parts: tuple[str, ...]) -> Iterator[FileEntry]:
         for name in self._names(folder):
             inner = split(name)  # a zip with backslashes, unpacked on Linux, leaves them in the names
             if inner is None:
@@ -88,15 +88,15 @@ class FolderReader:
             except OSError:
                 continue  # it is gone
             if stat.S_ISREG(mode):
-                yield Entry(path, partial(_read, folder, name))
+                yield FileEntry(path, partial(_read, folder, name))
             else:
-                yield Entry(path, not_a_file(what_is(mode)))
+                yield FileEntry(path, not_a_file(what_is(mode)))
             if stat.S_ISLNK(mode) and _leads_out(self._root, path):
                 self.closed[path] = _NOT_FOLLOWED
             if stat.S_ISDIR(mode) and not is_out_of_sight(path):
                 yield from self._into(folder, name, path)
 
-    def _into(self, folder: int, name: str, path: tuple[str, ...]) -> Iterator[Entry]:
+    def _into(self, folder: int, name: str, path: tuple[str, ...]) -> Iterator[FileEntry]:
         try:
             handle = os.open(name, _FOLDER, dir_fd=folder)
         except OSError:
@@ -137,7 +137,7 @@ class PlainFolderReader:
         self._seen = 0
         self.closed: dict[tuple[str, ...], str] = {}  # and why
 
-    def entries(self) -> Iterator[Entry]:
+    def entries(self) -> Iterator[FileEntry]:
         yield from self._below(self._root, ())
 
     def _children(self, folder: Path) -> list["os.DirEntry[str]"]:
@@ -148,20 +148,20 @@ class PlainFolderReader:
             raise entries.too_many(self._root)
         return sorted(children, key=lambda child: child.name)
 
-    def _below(self, folder: Path, parts: tuple[str, ...]) -> Iterator[Entry]:
+    def _below(self, folder: Path, parts: tuple[str, ...]) -> Iterator[FileEntry]:
         for child in self._children(folder):
             path = (*parts, child.name)
             if _is_link(child):
                 if _leads_out(self._root, path):
                     self.closed[path] = _NOT_FOLLOWED
-                yield Entry(path, not_a_file("a link"))
+                yield FileEntry(path, not_a_file("a link"))
             elif child.is_file():
-                yield Entry(path, partial(_read_by_path, Path(child.path)))
+                yield FileEntry(path, partial(_read_by_path, Path(child.path)))
             elif child.is_dir():
-                yield Entry(path, not_a_file("a folder"))
+                yield FileEntry(path, not_a_file("a folder"))
                 yield from self._into(Path(child.path), path)
 
-    def _into(self, folder: Path, path: tuple[str, ...]) -> Iterator[Entry]:
+    def _into(self, folder: Path, path: tuple[str, ...]) -> Iterator[FileEntry]:
         if is_out_of_sight(path):
             return
         try:

@@ -13,7 +13,7 @@ from raysteps.common.text import did_you_mean, join_and, one_line
 from raysteps.course.manifest import Step
 from raysteps.submission.archives import DAMAGED, FOREIGN_ENDINGS, archive_entries
 from raysteps.submission.encoding import decode
-from raysteps.submission.entries import MAX_ABOVE, Entry, RejectedFile, is_out_of_sight, shown
+from raysteps.submission.entries import MAX_ABOVE, FileEntry, RejectedFile, is_out_of_sight, shown
 from raysteps.submission.folders import FolderReader, PlainFolderReader, what_is
 
 # Where the files of a submission are expected, and which names are close to an expected one.
@@ -26,7 +26,7 @@ _WORDS_OF_COPIES = re.compile(r"\b(?:copy|kopie|copia|copie|of|von|de|final|new|
 
 
 @dataclass(frozen=True)
-class Place:
+class SourceLocation:
     """An accepted place of a step's file; the lower rank is the more explicit place."""
 
     step: str
@@ -50,7 +50,7 @@ def _plain(name: str) -> str:
     return name.replace(" ", "").rstrip("s")
 
 
-class Places:
+class SourceLocator:
     """All accepted places of all steps."""
 
     def __init__(self, steps: list[Step]) -> None:
@@ -63,7 +63,7 @@ class Places:
             self._wanted[(step.file,)] = (2, step.id)
         self._lower = {tuple(map(_lower, parts)): found for parts, found in self._wanted.items()}
 
-    def find(self, parts: tuple[str, ...]) -> Place | None:
+    def find(self, parts: tuple[str, ...]) -> SourceLocation | None:
         """The place that this path is, perhaps below top folders: one for a bare file, which could be anything else
         further down."""
         for above in range(min(len(parts), MAX_ABOVE + 1)):
@@ -71,7 +71,7 @@ class Places:
             for known, worse in ((self._wanted, 0), (self._lower, 1)):
                 form, step = known.get(tuple(map(_lower, tail)) if worse else tail, (forms, ""))
                 if form < forms and (form < _BARE or above <= 1):
-                    return Place(step, 2 * (form + forms * above) + worse, worse == 0, parts[:above], form)
+                    return SourceLocation(step, 2 * (form + forms * above) + worse, worse == 0, parts[:above], form)
         return None
 
     def near(self, parts: tuple[str, ...]) -> str | None:
@@ -100,7 +100,7 @@ class Places:
         )
 
 
-def unusual_places(places: Mapping[str, Place]) -> set[str]:
+def unusual_places(places: Mapping[str, SourceLocation]) -> set[str]:
     """The steps that do not lie where the others do: that may be an old copy, or a name that went wrong.
 
     A whole submission in a folder of its own is usual; a single file in some folder says nothing about it."""
@@ -137,10 +137,10 @@ class Submission:
 
 
 @dataclass
-class _Found:
+class _Candidate:
     """What lay at the best place for one step so far."""
 
-    place: Place
+    place: SourceLocation
     path: str
     data: bytes = b""
     problem: str = ""
@@ -151,14 +151,14 @@ class _Collector:
 
     def __init__(self, steps: list[Step]) -> None:
         self._steps = {step.id: step for step in steps}
-        self._places = Places(steps)
-        self._found: dict[str, _Found] = {}
+        self._places = SourceLocator(steps)
+        self._found: dict[str, _Candidate] = {}
         self._problems: dict[str, str] = {}  # why something at an accepted place was not taken
         self._copies: dict[str, list[str]] = {}  # what was left out because the same lay at a more explicit place
         self._near: dict[str, str] = {}  # what looks like a step's file but lies elsewhere or is called otherwise
         self._beside: dict[str, str] = {}  # what lies in a step's folder and looks like no step's file
 
-    def take(self, entries: Iterator[Entry]) -> None:
+    def take(self, entries: Iterator[FileEntry]) -> None:
         for entry in entries:
             place = self._places.find(entry.parts)
             if place is not None:
@@ -171,18 +171,18 @@ class _Collector:
             elif (beside := self._places.beside(entry.parts)) is not None:
                 self._beside.setdefault(beside, self._not_taken(beside, entry))
 
-    def _not_taken(self, step: str, entry: Entry) -> str:
+    def _not_taken(self, step: str, entry: FileEntry) -> str:
         expected = f"steps/{self._steps[step].path.as_posix()}"
         return f"{shown(entry.parts)} was not taken: it must be {expected}."
 
-    def _expect_folder(self, entry: Entry) -> None:
+    def _expect_folder(self, entry: FileEntry) -> None:
         """Where a step's folder belongs, a file is not taken; links and the like are told of otherwise."""
         step = self._places.is_of_a_step(entry.parts)
         with suppress(RejectedFile):
             if step is not None and entry.read() is not None:
                 self._problems.setdefault(step, f"{shown(entry.parts)} is a file, not a folder, and was not taken.")
 
-    def _take_at(self, place: Place, entry: Entry) -> None:
+    def _take_at(self, place: SourceLocation, entry: FileEntry) -> None:
         best = self._found.get(place.step)
         path = shown(entry.parts)
         if best is not None and place.rank > best.place.rank:
@@ -192,7 +192,7 @@ class _Collector:
             self._leave_out(place.step, path)  # should there be a better one yet
             best.data, best.problem = b"", "is there more than once, so none of them was taken."
             return
-        found = _Found(place, path)
+        found = _Candidate(place, path)
         try:
             found.data = entry.read()
         except RejectedFile as problem:  # a file at a lesser place is better than none
@@ -232,7 +232,7 @@ class _Collector:
                 result.remarks[step] = " ".join(filter(None, remarks))
         return result
 
-    def _of_place(self, step: str, found: _Found, unusual: set[str]) -> list[str]:
+    def _of_place(self, step: str, found: _Candidate, unusual: set[str]) -> list[str]:
         """Where a source lay, and what was left out beside it."""
         remarks = []
         expected = f"steps/{self._steps[step].path.as_posix()}"
@@ -294,7 +294,7 @@ def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
     """The folders in a folder that each hold a file of the same step, where it holds none itself: a class."""
     if not path.is_dir():
         return []
-    places, homes = Places(steps), dict[str, set[tuple[str, ...]]]()
+    places, homes = SourceLocator(steps), dict[str, set[tuple[str, ...]]]()
     for place in filter(None, (places.find(entry.parts) for entry in _reader(path).entries())):
         homes.setdefault(place.step, set()).add(place.home)
     if any(() in found for found in homes.values()):

@@ -24,7 +24,7 @@ from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
 from raysteps.toolchain.fingerprint import fingerprint
-from raysteps.toolchain.kit_artifacts import BuiltKit, ProgramLinker, ProgressCallback, Tests, named
+from raysteps.toolchain.kit_artifacts import BuiltKit, ProgramLinker, ProgressCallback, Tests, linker_names_of
 from raysteps.toolchain.link import (
     Description,
     dynamic_list,
@@ -106,7 +106,7 @@ def up_to_last(project: Project, graded: Sequence[Step]) -> list[Step]:
     return [step for step in read_all_steps(project) if step.index <= graded[-1].index]
 
 
-class Assembly:
+class KitBuilder:
     """Makes bin/, include/, steps/ and facts.json."""
 
     def __init__(self, project: Project, graded: list[Step], folder: Path, description: Description) -> None:
@@ -267,7 +267,7 @@ class Assembly:
         write_json(steps / f"{step.number}.names.json", self._kept[step.number])
         earlier = [self._kept[other.number] for other in self._steps if other.index <= step.index]
         allowed = self._core_names.union(*earlier).difference(
-            *(named(step.barred_functions, shown) for shown in earlier)
+            *(linker_names_of(step.barred_functions, shown) for shown in earlier)
         )
         write_json(steps / f"{step.number}.allowed.json", sorted(allowed))
         write_bytes(steps / f"{step.number}.dynamic", dynamic_list(sorted(allowed)))
@@ -365,7 +365,7 @@ def _build(project: Project, graded: list[Step], folder: Path, say: ProgressCall
         new = Path(name) / "kit"
         new.mkdir()
         description = read_description(tree.folder / "kit.json")
-        Assembly(project, graded, new, description).run(say)
+        KitBuilder(project, graded, new, description).run(say)
         shutil.copyfile(tree.folder / "kit.json", new / "kit.json")
         shutil.rmtree(folder, ignore_errors=True)
         new.rename(folder)

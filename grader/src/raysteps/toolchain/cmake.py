@@ -9,25 +9,25 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.files import one_at_a_time
+from raysteps.common.files import file_lock
 from raysteps.common.platform import executable, processor_count
 from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.course.project import Project
-from raysteps.toolchain.kit_artifacts import ProgressCallback, paced
+from raysteps.toolchain.kit_artifacts import ProgressCallback, rate_limited
 
 _CONFIGURE_SECONDS = 600
 _BUILD_SECONDS = 1800
 _LAUNCHER = "CMAKE_CXX_COMPILER_LAUNCHER"
 
 
-class _HowFar:
+class _BuildProgress:
     """What Ninja and Make say of it: `[37/140]`, or `[ 26%]`."""
 
     _DONE = re.compile(rb"\[ *([0-9]+)(?:/([0-9]+)|(%))\]")
 
     def __init__(self, say: ProgressCallback) -> None:
-        self._say = paced(say)
+        self._say = rate_limited(say)
 
     def heard(self, data: bytes) -> None:
         found = self._DONE.findall(data)
@@ -109,12 +109,12 @@ class BuildTree:
             command += ["--parallel", str(processor_count())]  # make would start all at once without a number
         if targets:
             command += ["--target", *targets]
-        return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root, heard=_HowFar(say).heard)
+        return run(command, seconds=_BUILD_SECONDS, cwd=self.project.root, heard=_BuildProgress(say).heard)
 
     @contextmanager
     def locked(self, say: ProgressCallback = lambda text: None) -> Iterator[None]:
         """One command at a time in this folder."""
-        with one_at_a_time(self.folder / ".lock", lambda: say("waiting for another command, which builds here")):
+        with file_lock(self.folder / ".lock", lambda: say("waiting for another command, which builds here")):
             yield
 
 

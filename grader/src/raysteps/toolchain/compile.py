@@ -15,17 +15,27 @@ from raysteps.common.process import Outcome, run
 from raysteps.common.text import printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.stubs import borrowed_functions, included, pristine_stub
-from raysteps.sandbox.task import AccountingSandbox, Beside, Input, Limits, Output, Sandbox, Task, TaskResult, Word
-from raysteps.toolchain.kit_artifacts import NOTHING, BuiltKit, Kind, ProgramLinker, Replaced
+from raysteps.sandbox.task import (
+    AccountingSandbox,
+    Input,
+    Limits,
+    Output,
+    Sandbox,
+    Task,
+    TaskResult,
+    TrustedCommand,
+    Word,
+)
+from raysteps.toolchain.kit_artifacts import NONE_REPLACED, BuiltKit, Kind, ProgramLinker, Replaced
 from raysteps.toolchain.limits import StepLimits
 from raysteps.toolchain.link import (
-    TELLS_WHAT_IS_NOWHERE,
+    REPORT_UNDEFINED,
     compile_words,
-    found_nowhere,
     include_words,
     library_flags,
     library_name,
     link_words,
+    undefined_symbols,
 )
 
 # What is in an object: the names that it defines and asks for.
@@ -61,7 +71,7 @@ def parse_symbols(text: str) -> Symbols:
 _NOT_OF_A_LIBRARY = re.compile(r"_Z(?:T[VIST])?N?K?(?!9__gnu_cxx|10__cxxabi)[0-9]")
 
 
-def of_somebody(name: str) -> bool:
+def is_user_symbol(name: str) -> bool:
     """Whether a linker name is of a C++ function or class that is neither the compiler's nor the standard library's."""
     return _NOT_OF_A_LIBRARY.match(name) is not None
 
@@ -69,17 +79,17 @@ def of_somebody(name: str) -> bool:
 _OF_A_PROGRAM = re.compile(r"__(?:[a-z]+san|sanitizer|sancov)_")
 
 
-def of_no_library(ran: TaskResult) -> set[str]:
+def unresolved_names(ran: TaskResult) -> set[str]:
     """What a linker finds nowhere, without what sanitizers have in the program itself, as Clang links them."""
     said = (ran.outcome.stderr + ran.outcome.stdout)[:_MAX_READ]
-    return {name for name in found_nowhere(said) if _OF_A_PROGRAM.match(name) is None}
+    return {name for name in undefined_symbols(said) if _OF_A_PROGRAM.match(name) is None}
 
 
 _NESTED = re.compile(r"_Z(?:T[VISWH])?(?:NK?)?")
 _PART = re.compile(r"[0-9]{1,3}")
 
 
-def own_name(linker_name: str) -> str:
+def unqualified_name(linker_name: str) -> str:
     """What the source calls a function or variable of which this is the linker's name; nothing where it shows none."""
     start = _NESTED.match(linker_name)
     at, name = start.end() if start else 0, ""
@@ -205,7 +215,7 @@ class Program:
         """The program run with these arguments."""
         if self.home is None:
             return Task((*self.words, *args), limits, stdin=stdin)
-        return Task(self.words, limits, beside=Beside((Input(self.home), *args), stdin))
+        return Task(self.words, limits, beside=TrustedCommand((Input(self.home), *args), stdin))
 
 
 _MAX_KEPT = 40  # libraries: each save of a student makes one
@@ -253,7 +263,7 @@ def own_libraries(kit: BuiltKit) -> KeptLibraries:
 _NO_WORK = TaskResult(Outcome(0, False, "", "", 0.0), {}, 0.0, "")
 
 
-def _by_its_source(step: Step, source: bytes, raw: Path, ran: TaskResult) -> Compiled:
+def _checked_by_source(step: Step, source: bytes, raw: Path, ran: TaskResult) -> Compiled:
     """Where steps are no libraries, nothing but the source tells that it calls what it may not: else a student of such
     a system would hear of it in the grade only."""
     text = source.decode("utf-8", "replace")
@@ -307,7 +317,9 @@ class StudentBuild:
             return Compiled(None, ran)
         raw = self._write(f"{step.number}.o", data)
         return (
-            _by_its_source(step, source, raw, ran) if description.seal is None else self._close(step, raw, ran, limits)
+            _checked_by_source(step, source, raw, ran)
+            if description.seal is None
+            else self._close(step, raw, ran, limits)
         )
 
     def _require_compiler(self, limits: StepLimits) -> None:
@@ -336,19 +348,19 @@ class StudentBuild:
             return Compiled(None, compiled, unreadable=True)
         symbols = parse_symbols(text)
         foreign = symbols.wanted - self._kit.allowed(step)
-        strange = sorted(name for name in foreign if of_somebody(name))
+        strange = sorted(name for name in foreign if is_user_symbol(name))
         forbidden = tuple(name for name in strange if name in self._kit.known() or "5Catch" in name)
         missing = tuple(shown for name, shown in self._kit.functions(step).items() if name not in symbols.defined)
         undefined = self._shown(raw, [name for name in strange if name not in forbidden], limits)
         if forbidden or missing or undefined:
             return Compiled(None, compiled, forbidden, missing, undefined)
         words: list[Word] = [description.compiler, *description.link_flags, *library_flags(step.number)]
-        words += [Input(self._kit.exports(step), "exports"), Input(raw, "step.o"), *TELLS_WHAT_IS_NOWHERE]
+        words += [Input(self._kit.exports(step), "exports"), Input(raw, "step.o"), *REPORT_UNDEFINED]
         ran = self._run(limits, *words, "-o", Output("library"))
         data = ran.outputs.get("library")
         if not data:
             return Compiled(None, ran)
-        nowhere = sorted(of_no_library(ran) & foreign)
+        nowhere = sorted(unresolved_names(ran) & foreign)
         if nowhere:  # such as what is declared as C and was forgotten
             return Compiled(None, compiled, undefined=self._shown(raw, nowhere, limits))
         return Compiled(self._write_library(step, data), compiled)
@@ -372,7 +384,7 @@ class StudentBuild:
         limits: StepLimits,
         *,
         together: bool = False,
-        replaced: Replaced = NOTHING,
+        replaced: Replaced = NONE_REPLACED,
     ) -> tuple[Program | None, TaskResult | None]:
         """The kit's program with these binaries, by step; none, and what the linker said, when they do not fit. All
         other steps are the reference's; those up to this one are loaded like the student's if `together`. Where the

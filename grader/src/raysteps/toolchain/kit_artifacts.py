@@ -19,14 +19,21 @@ from raysteps.common.platform import executable
 from raysteps.course.manifest import Step, earlier, up_to
 from raysteps.course.project import Project
 from raysteps.toolchain.limits import StepLimits, limits_of
-from raysteps.toolchain.link import Description, RemoteParts, library_name, link, with_another, without_names
+from raysteps.toolchain.link import (
+    Description,
+    RemoteParts,
+    library_name,
+    link,
+    with_local_symbols,
+    with_redirected_calls,
+)
 
 Kind = Literal["raytrace", "worker", "test"]
 ProgressCallback = Callable[[str], None]
 _EVERY = 5.0  # seconds
 
 
-def paced(say: ProgressCallback) -> ProgressCallback:
+def rate_limited(say: ProgressCallback) -> ProgressCallback:
     """Says at most every few seconds what changes all the time, from the first few on."""
     said = time.monotonic()
 
@@ -54,7 +61,7 @@ _CAREFUL = ("-O1", "-g", "-fno-omit-frame-pointer", "-D_GLIBCXX_ASSERTIONS", "-f
 _SANITIZED = (*_CAREFUL, _SANITIZERS, "-fno-sanitize=vptr,null")
 
 Replaced: TypeAlias = frozenset[str]  # linker names of functions of one step
-NOTHING: Replaced = frozenset()
+NONE_REPLACED: Replaced = frozenset()
 _NOT_OFFERED = "raysteps_not_offered"  # see framework/remote/home.cpp
 
 
@@ -63,12 +70,12 @@ def function_name(shown: str) -> str:
     return shown.partition("(")[0].removeprefix("raysteps::")
 
 
-def named(functions: Collection[str], shown: Mapping[str, str]) -> Replaced:
+def linker_names_of(functions: Collection[str], shown: Mapping[str, str]) -> Replaced:
     """Linker names of these functions, as step.toml calls them, among those that `shown` writes as C++ does."""
     return frozenset(name for name, text in shown.items() if function_name(text) in functions)
 
 
-def _but(replaced: Replaced) -> str:
+def _replaced_suffix(replaced: Replaced) -> str:
     """At the end of a name: what is not in it."""
     return f"-but-{hashlib.sha256(' '.join(sorted(replaced)).encode()).hexdigest()[:16]}" if replaced else ""
 
@@ -109,10 +116,10 @@ class ProgramLinker:
     def _all_parts(self, kind: str) -> list[str]:
         return (self._folder / "rest" / f"{kind}.txt").read_text("utf-8").splitlines()
 
-    def home(self, kind: str, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
+    def home(self, kind: str, own: Sequence[str], folder: Path, replaced: Replaced = NONE_REPLACED) -> Path:
         """The program that asks the steps `own`; all others are the reference's, and so are the `replaced` functions of
         the last. `kind` is as in rest/KIND.txt. Linked into `folder` where the kit may not be written to."""
-        name = f"{kind}-beside-{'-'.join(own)}{_but(replaced)}"
+        name = f"{kind}-beside-{'-'.join(own)}{_replaced_suffix(replaced)}"
         return self._linked(name, lambda room: self._home_parts(kind, own, room, replaced), folder)
 
     def _home_parts(self, kind: str, own: Sequence[str], room: Path, replaced: Replaced) -> list[str | Path]:
@@ -126,9 +133,9 @@ class ProgramLinker:
         objects += [*(self._part(path) for path in parts.wire), self._part(parts.home)]
         return [*objects, *(self._folder / line for line in self._all_parts("libraries"))]
 
-    def box(self, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
+    def box(self, own: Sequence[str], folder: Path, replaced: Replaced = NONE_REPLACED) -> Path:
         """The box of these steps, which lacks their libraries. What calls a `replaced` function in it asks home."""
-        name = f"box-{'-'.join(own)}{_but(replaced)}"
+        name = f"box-{'-'.join(own)}{_replaced_suffix(replaced)}"
         return self._linked(name, lambda room: self._box_parts(own, room, replaced), folder)
 
     def _box_parts(self, own: Sequence[str], room: Path, replaced: Replaced) -> list[str | Path]:
@@ -149,7 +156,7 @@ class ProgramLinker:
         words += [self._folder / "placeholders" / library_name(number) for number in own]
         return [*words, *(f"-Wl,--dynamic-list={self._folder / 'steps' / f'{number}.dynamic'}" for number in own)]
 
-    def alone(self, name: str, kind: str, own: Sequence[str], folder: Path, replaced: Replaced = NOTHING) -> Path:
+    def alone(self, name: str, kind: str, own: Sequence[str], folder: Path, replaced: Replaced = NONE_REPLACED) -> Path:
         """The program of that name that loads the steps `own`; all others are the reference's, and so are the
         `replaced` functions of the last."""
 
@@ -158,7 +165,7 @@ class ProgramLinker:
             *libraries, core = (self._folder / line for line in self._all_parts("libraries"))
             return [*self._description.more_sources, *objects, *libraries, *self._loading(own, core)]
 
-        return self._linked(name + _but(replaced), parts, folder)
+        return self._linked(name + _replaced_suffix(replaced), parts, folder)
 
     def _without(self, own: Sequence[str], kind: str) -> list[str | Path]:
         """The program's objects and all references but these steps'."""
@@ -176,11 +183,11 @@ class ProgramLinker:
     def _service(self, number: str, own: Sequence[str], room: Path) -> list[str | Path]:
         """What answers the box of the steps `own` for this one: nothing that none of them may call."""
         path = self._part(self._remote.services[number])
-        barred = self._others(number, NOTHING.union(*(self._names(one, "allowed") for one in own)))
+        barred = self._others(number, NONE_REPLACED.union(*(self._names(one, "allowed") for one in own)))
         tools = self._description.seal
         if not barred or tools is None:
             return [path]
-        return with_another(tools, path, barred, _NOT_OFFERED, room / f"{path.parent.name}-{path.name}")
+        return with_redirected_calls(tools, path, barred, _NOT_OFFERED, room / f"{path.parent.name}-{path.name}")
 
     def _reference_of(self, number: str, room: Path, replaced: Replaced) -> list[Path]:
         """What the reference has of a step that is handed in: the replaced functions."""
@@ -192,7 +199,9 @@ class ProgramLinker:
         tools = self._description.seal
         if not hidden or tools is None:
             return path
-        return without_names(tools, path, hidden, room / f"{path.parent.name}-{path.stem}{_but(hidden)}.o")
+        return with_local_symbols(
+            tools, path, hidden, room / f"{path.parent.name}-{path.stem}{_replaced_suffix(hidden)}.o"
+        )
 
     def _linked(self, name: str, parts: Callable[[Path], list[str | Path]], folder: Path) -> Path:
         """Under its name once it is whole: several may want it at the same time. `parts` has a room for copies."""
@@ -279,7 +288,7 @@ class BuiltKit:
 
     def linker_names(self, step: Step, functions: Collection[str]) -> Replaced:
         """Of these functions of the step, as step.toml calls them."""
-        return named(functions, self.functions(step))
+        return linker_names_of(functions, self.functions(step))
 
     def exports(self, step: Step) -> Path:
         """The linker's version script with the names of the functions."""
@@ -320,7 +329,7 @@ class BuiltKit:
         return linker if linker is not None and all(linker.can_be_asked(step.number) for step in steps) else None
 
     def program(
-        self, kind: Kind, step: Step, folder: Path, *, together: bool = False, replaced: Replaced = NOTHING
+        self, kind: Kind, step: Step, folder: Path, *, together: bool = False, replaced: Replaced = NONE_REPLACED
     ) -> Path:
         """A program that lacks the student's library of this step (`together`: of all up to it). Linked into `folder`
         where the kit lacks it and may not be written to."""

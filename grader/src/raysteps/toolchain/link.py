@@ -163,13 +163,15 @@ def link(description: Description, objects: Sequence[str | Path], program: Path)
     _run(link_words(description, objects, program))
 
 
-def without_names(tools: SealTools, path: Path, names: Iterable[str], target: Path) -> Path:
+def with_local_symbols(tools: SealTools, path: Path, names: Iterable[str], target: Path) -> Path:
     """A copy of an object that shows none of these names: whoever asks for them gets them from elsewhere."""
     _run([tools.objcopy, *(f"--localize-symbol={name}" for name in sorted(names)), path, target])
     return target
 
 
-def with_another(tools: SealTools, path: Path, names: Iterable[str], other: str, target: Path) -> list[str | Path]:
+def with_redirected_calls(
+    tools: SealTools, path: Path, names: Iterable[str], other: str, target: Path
+) -> list[str | Path]:
     """A copy of an object that calls the function `other` in place of these, as words for the linker."""
     aliases = {name: f"{other}_{name}" for name in sorted(names)}
     _run([tools.objcopy, *(f"--redefine-sym={name}={alias}" for name, alias in aliases.items()), path, target])
@@ -198,13 +200,13 @@ def library_flags(number: str) -> list[str]:
 
 # A linker that tells what it finds nowhere, by the linker's name, and makes the library all the same: it knows nothing
 # of what a box will have.
-TELLS_WHAT_IS_NOWHERE = ("-pthread", "-Wl,-z,defs", "-Wl,--warn-unresolved-symbols", "-Wl,--no-demangle")
-_NOWHERE = re.compile(r"undefined (?:reference to [`']|symbol: )(?P<name>[^`'\s]+)")
+REPORT_UNDEFINED = ("-pthread", "-Wl,-z,defs", "-Wl,--warn-unresolved-symbols", "-Wl,--no-demangle")
+_UNDEFINED = re.compile(r"undefined (?:reference to [`']|symbol: )(?P<name>[^`'\s]+)")
 
 
-def found_nowhere(said: str) -> set[str]:
+def undefined_symbols(said: str) -> set[str]:
     """What such a linker has told."""
-    return {found["name"] for found in _NOWHERE.finditer(said)}
+    return {found["name"] for found in _UNDEFINED.finditer(said)}
 
 
 def link_placeholder(description: Description, names: Sequence[str], library: Path) -> None:

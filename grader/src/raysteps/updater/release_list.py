@@ -26,7 +26,7 @@ HISTORY = ".git"
 
 
 @dataclass(frozen=True)
-class Place:
+class ReleasePath:
     """A path, how it is called from the root of the kit, and whether it is a folder that was made."""
 
     path: Path
@@ -39,7 +39,7 @@ def is_made_anew(name: str) -> bool:
     return any(part == CACHE or part.endswith(".egg-info") for part in PurePosixPath(name).parts)
 
 
-def all_places(folder: Path, unreadable: Callable[[OSError], None] | None = None) -> Iterator[Place]:
+def all_places(folder: Path, unreadable: Callable[[OSError], None] | None = None) -> Iterator[ReleasePath]:
     """Files and folders, but not the history. Nobody goes into a folder that was made; one that cannot be read is
     passed over, or told to `unreadable`."""
     for root, names, files in os.walk(folder, onerror=unreadable):
@@ -50,7 +50,7 @@ def all_places(folder: Path, unreadable: Callable[[OSError], None] | None = None
             if last in names and (made or name == HISTORY):
                 names.remove(last)
             if name != HISTORY:
-                yield Place(path, name, made)
+                yield ReleasePath(path, name, made)
 
 
 # Which paths a list of files may hold: each leads to a place of its own, inside the folder, on every system.

@@ -25,7 +25,7 @@ class FileVanished:
 
 
 @dataclass(frozen=True)
-class ChangeNoticed:
+class WatchNotice:
     """Something to tell about how files are watched."""
 
     text: str
@@ -73,5 +73,5 @@ class InspectEnded:
     run: int
 
 
-Event = FileSaved | FileVanished | ChangeNoticed | Key | WorkerMessage | WorkerEnded | InspectEnded
+Event = FileSaved | FileVanished | WatchNotice | Key | WorkerMessage | WorkerEnded | InspectEnded
 Post = Callable[[Event], None]

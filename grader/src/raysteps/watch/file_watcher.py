@@ -17,7 +17,7 @@ from raysteps.common.text import count
 from raysteps.course.manifest import Step, earlier, read_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.fingerprint import PROGRAM_FOLDERS, kit_files
-from raysteps.watch.events import ChangeNoticed, FileSaved, FileVanished, Owner, Post
+from raysteps.watch.events import FileSaved, FileVanished, Owner, Post, WatchNotice
 
 _COUNTS = re.compile(r"\w+\.(hpp|cpp)|step\.toml")  # not what editors leave beside them
 _SETTLE_MS = 50  # several writes within this time are one save
@@ -144,7 +144,7 @@ class FileWatcher:
 
     def _begin_to_poll(self, why: str) -> None:
         self._poll = True
-        self._post(ChangeNoticed(f"{why}: from now on files are polled."))
+        self._post(WatchNotice(f"{why}: from now on files are polled."))
 
     def look(self, *, told: bool = True) -> bool:
         """Whether there was news; posts it. The kit's files are looked at when the system told of a change, or tells

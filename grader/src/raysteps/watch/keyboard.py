@@ -74,7 +74,7 @@ class KeyListener:
 # Modules that only some systems have are imported by their names: type checkers on others do not know them.
 
 
-def in_front() -> bool:
+def in_foreground() -> bool:
     """A job in the background must not touch the terminal: it would be stopped."""
     try:
         return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
@@ -92,11 +92,11 @@ class UnixKeyboard(KeyListener):
         self._before = self._termios.tcgetattr(self._terminal)
 
     def _take(self) -> None:
-        if not self._end.is_set() and in_front():
+        if not self._end.is_set() and in_foreground():
             self._tty.setcbreak(self._terminal)
 
     def _give_back(self) -> None:
-        if in_front():
+        if in_foreground():
             with suppress(self._termios.error):
                 self._termios.tcsetattr(self._terminal, self._termios.TCSADRAIN, self._before)
 
@@ -154,7 +154,7 @@ def find_keyboard(post: Post) -> Keyboard:
         return NoKeyboard()
     with suppress(ImportError):
         keyboard = UnixKeyboard(post)
-        return keyboard if in_front() else NoKeyboard()
+        return keyboard if in_foreground() else NoKeyboard()
     with suppress(ImportError):
         return WindowsKeyboard(post)
     return NoKeyboard()

@@ -13,18 +13,18 @@ from raysteps.common.platform import kit_command
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.progress.hints import Hints, no_other
-from raysteps.progress.reset import loss, own_file, print_done, print_loss, put_back
+from raysteps.progress.reset import lost_lines, own_file, print_done, print_loss, put_back
 from raysteps.progress.standing import next_of, own_source, print_list, shown, standings
 from raysteps.report.wording import inspect_worst
 from raysteps.submission.entries import RejectedFile
 from raysteps.watch.events import (
-    ChangeNoticed,
     Event,
     FileSaved,
     FileVanished,
     InspectEnded,
     Key,
     Owner,
+    WatchNotice,
     WorkerEnded,
     WorkerLine,
     WorkerMessage,
@@ -136,7 +136,7 @@ class Actions:
     def _reset(self) -> None:
         session, step = self._session, self._session.view.step
         name = shown(session.project, step, step.file)
-        lost = loss(session.project, step)
+        lost = lost_lines(session.project, step)
         if lost is None and own_file(session.project, step).is_file():
             session.showing.line(f"{name} is the stub already.")
             return
@@ -249,7 +249,7 @@ class Session:
                 self.look(_what_changed(name, owner))
             case FileVanished():
                 self._vanished()
-            case ChangeNoticed(text):
+            case WatchNotice(text):
                 self.showing.dim(text)
             case Key(letter):
                 self.inspection.stop()

@@ -25,10 +25,10 @@ from raysteps.course.manifest import Step, chosen_step, earlier
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code
 from raysteps.grading.build_messages import link_message, why_not_built
-from raysteps.grading.images import ImageGrader, judge
+from raysteps.grading.images import ImageGrader, grade_image
 from raysteps.grading.self_check import own_steps
 from raysteps.grading.step import GradingContext, SpareProcessors, compile_steps
-from raysteps.grading.unit_tests import run_tests, set_aside, set_pictures_aside
+from raysteps.grading.unit_tests import mark_waiting, mark_waiting_pictures, run_tests
 from raysteps.images.compare import write_png
 from raysteps.images.render import shown_reference
 from raysteps.progress import own_check  # noqa: F401 - ahead of time
@@ -116,15 +116,15 @@ class QuickLook:
         self.tell(result)
         with ExitStack() as ends:
             spare = SpareProcessors(processor_count() - 1, ends)
-            draws = [partial(judge, gallery, raytrace, self.step, case) for case in self.step.images]
+            draws = [partial(grade_image, gallery, raytrace, self.step, case) for case in self.step.images]
             drawn = [(draw, spare.start(draw)) for draw in draws]
             result.tests = run_tests(self.sandbox, tests, self.kit.tests[self.step.id], limits, self.say)
-            gallery.stopped_in(result.tests)
-            waiting = set_aside(result, self.step, self.kit.tests[self.step.id], source)
+            gallery.record_stops(result.tests)
+            waiting = mark_waiting(result, self.step, self.kit.tests[self.step.id], source)
             self.tell(result)
             for draw, begun in drawn:
                 result.images.append(draw() if begun is None else begun.result())
-                set_pictures_aside(result.images[-1:], waiting)
+                mark_waiting_pictures(result.images[-1:], waiting)
                 self.tell(result)
         passed = [item.passed for items in (result.tests, result.images) for item in items]
         result.status = "passed" if all(passed) else "partial" if any(passed) else "failed"

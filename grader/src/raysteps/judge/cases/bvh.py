@@ -45,11 +45,11 @@ from raysteps.judge.cases.tree_cases import (
     small_sphere,
     times_first,
 )
-from raysteps.judge.functions import Function, Group, Make
+from raysteps.judge.functions import Function, Group, InputGenerator
 from raysteps.judge.protocol import Box, Inputs, Ray, Whole, rounded
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.searches import ANY_IN_BVH, CLOSEST_IN_BVH, WhoseBvh
-from raysteps.judge.surfaces import Scripted, Sphere, Triangle
+from raysteps.judge.searches import CLOSEST_IN_BVH, OCCLUSIONS_IN_BVH, BvhSource
+from raysteps.judge.surfaces import ScriptedSurface, Sphere, Triangle
 
 _AREA = Answer(lambda tokens: tokens.real(), words_of_number, lambda _inputs, *pair: real("the area", *pair))
 _COST = Answer(lambda tokens: tokens.real(), words_of_number, lambda _inputs, *pair: real("the cost", *pair))
@@ -287,7 +287,7 @@ def _at_one_distance(draw: RandomSource) -> RaysInScene:
     """Several are the nearest at once: the first in the scene counts."""
     nearest = draw.eighths(1, 8)
     others = [nearest + draw.eighths(0.5, 6) for _ in range(draw.whole(3, 12))]
-    surfaces = [Scripted(distance) for distance in (*others, nearest, nearest, *((nearest,) * draw.whole(0, 4)))]
+    surfaces = [ScriptedSurface(distance) for distance in (*others, nearest, nearest, *((nearest,) * draw.whole(0, 4)))]
     surfaces.sort(key=lambda _: draw.fine(0, 1))
     return tuple(surfaces), (Ray(draw.point(5), draw.direction()),)
 
@@ -313,7 +313,7 @@ def _through_slopes(draw: RandomSource) -> RaysInScene:
     return tuple(slopes), tuple(rays)
 
 
-_closest = partial(search, WhoseBvh, closest)
+_closest = partial(search, BvhSource, closest)
 
 CLOSEST_HIT_IN_BVH = Function(
     "closest_hit_in_bvh",
@@ -351,7 +351,7 @@ def _several_distances(draw: RandomSource) -> RaysInScene:
     """The nearest is among them once or more."""
     nearest = draw.eighths(1, 8)
     others = [nearest + draw.eighths(0, 6) for _ in range(draw.whole(0, 9))]
-    surfaces = [Scripted(distance) for distance in (*others, nearest)]
+    surfaces = [ScriptedSurface(distance) for distance in (*others, nearest)]
     surfaces.sort(key=lambda _: draw.fine(0, 1))
     return tuple(surfaces), (Ray(draw.point(5), draw.direction()),)
 
@@ -361,7 +361,7 @@ def _several_distances(draw: RandomSource) -> RaysInScene:
 
 def _very_near(draw: RandomSource) -> RaysInScene:
     """No hit is too near to count."""
-    return (Scripted(2.0 ** -draw.whole(7, 12)),), (Ray(draw.point(5), draw.direction()),)
+    return (ScriptedSurface(2.0 ** -draw.whole(7, 12)),), (Ray(draw.point(5), draw.direction()),)
 
 
 def _towards_glass(draw: RandomSource) -> RaysInScene:
@@ -380,13 +380,13 @@ def _of_the_first(factor: float) -> Distance:
     return times_first(lambda _: factor)
 
 
-def _occluded(rays: MakeRays, distance: Distance, own: float = 0.5) -> Make:
-    return search(WhoseBvh, occluded_each(distance), rays, own)
+def _occluded(rays: MakeRays, distance: Distance, own: float = 0.5) -> InputGenerator:
+    return search(BvhSource, occluded_each(distance), rays, own)
 
 
 OCCLUDED_IN_BVH = Function(
     "occluded_in_bvh",
-    ANY_IN_BVH,
+    OCCLUSIONS_IN_BVH,
     (
         Group("hit or not", _occluded(one_ray, AROUND_THE_FIRST, own=0)),
         Group("in the tree of build_bvh", _occluded(one_ray, AROUND_THE_FIRST, own=1)),

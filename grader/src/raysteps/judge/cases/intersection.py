@@ -5,7 +5,7 @@ from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import FOUND, HIT
 from raysteps.judge.protocol import Inputs, Ray, rounded
 from raysteps.judge.random_source import RandomSource, next_axis, with_zeros
-from raysteps.judge.surfaces import Scripted, Sphere, Surfaces, Triangle
+from raysteps.judge.surfaces import ScriptedSurface, Sphere, Surfaces, Triangle
 
 # Rays that are aimed at a triangle or beside it.
 
@@ -349,9 +349,9 @@ def _distances(draw: RandomSource, count: int) -> list[float]:
 
 
 def _list(draw: RandomSource, distances: list[float], missed: int) -> Inputs:
-    surfaces = [Scripted(distance) for distance in distances]
+    surfaces = [ScriptedSurface(distance) for distance in distances]
     for _ in range(missed):
-        surfaces.insert(draw.whole(0, len(surfaces)), Scripted(None))
+        surfaces.insert(draw.whole(0, len(surfaces)), ScriptedSurface(None))
     return {"surfaces": Surfaces(tuple(surfaces)), "ray": Ray(draw.point(5), draw.direction())}
 
 

@@ -47,7 +47,7 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, may_be_so_many, off
+from raysteps.judge.statistics import Numbers, is_plausible_total, ratio_problem
 
 _UP: Vector = (0.0, 0.0, 1.0)
 Mask = npt.NDArray[np.bool_]
@@ -383,7 +383,7 @@ def _weight_problem(what: str, mine: Numbers, right: Numbers, steep: Mask) -> st
     mine, right = mine[steep], right[steep]
     if not (np.abs(mine - right) > 1e-4 + _WEIGHT * np.abs(right)).any():
         return ""
-    return off(what, mine.sum(axis=1) / right.sum(axis=1))
+    return ratio_problem(what, mine.sum(axis=1) / right.sum(axis=1))
 
 
 def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
@@ -411,7 +411,7 @@ def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
     return (
         rough_problem(half, actual.nothing, view, alpha),
         _weight_problem("the weight is not f cos / pdf", actual.weights, right, steep),
-        off("the pdf is not that of the direction", pdfs / density) if wrong_pdf else "",
+        ratio_problem("the pdf is not that of the direction", pdfs / density) if wrong_pdf else "",
         "rough metal gives a specular sample" if actual.is_specular_somewhere else "",
     )
 
@@ -494,7 +494,7 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
         _weight_problem("the weight is wrong", samples.weights, right, steep),
         rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
         "" if samples.are_specular else "a sample of glass is not specular",
-        off("the pdf is not 1", samples.pdfs) if (np.abs(samples.pdfs - 1) > _ONE).any() else "",
+        ratio_problem("the pdf is not 1", samples.pdfs) if (np.abs(samples.pdfs - 1) > _ONE).any() else "",
     )
 
 
@@ -518,7 +518,7 @@ def _odds_problem(is_mirrored: Mask, shares: Numbers, view: Numbers, normals: Nu
     x, y, _ = view[0]
     across = normals[:, 0] * y - normals[:, 1] * x if math.hypot(x, y) > _STRAIGHT else normals[:, 0]
     left = across[is_mirrored] > 0
-    return "" if may_be_so_many(int(left.sum()), np.full(len(left), 0.5), 0) else _NOT_DRAWN_ANEW
+    return "" if is_plausible_total(int(left.sum()), np.full(len(left), 0.5), 0) else _NOT_DRAWN_ANEW
 
 
 _NOT_DRAWN_ANEW = "whether light is mirrored depends on the microfacet by more than Fresnel's share: draw it anew"
@@ -528,10 +528,10 @@ _STRAIGHT = 1e-3  # a view from straight above is the same on all sides
 def _share_problem(is_mirrored: Mask, shares: Numbers, nothing: int) -> str:
     """Each sample is mirrored with a probability of its own. Lost ones make no difference as long as they are few."""
     found = int(is_mirrored.sum())
-    if may_be_so_many(found, shares, nothing + math.ceil(1e-3 * len(shares))):
+    if is_plausible_total(found, shares, nothing + math.ceil(1e-3 * len(shares))):
         return ""
     words = f"too {'much' if found > shares.sum() else 'little'} light is mirrored"
-    return off(words, np.array([found / max(float(shares.sum()), 1.0)]))
+    return ratio_problem(words, np.array([found / max(float(shares.sum()), 1.0)]))
 
 
 def _glass_fill(draw: RandomSource) -> Fill:

@@ -13,13 +13,13 @@ from raysteps.common.vectors import Vector
 from raysteps.judge.draws import unit_problem
 from raysteps.judge.statistics import (
     Numbers,
-    happens_so_often,
     has_mean,
-    have_one_mean,
-    is_like,
+    has_same_distribution,
+    is_plausible_count,
     is_uniform,
-    off,
-    uneven,
+    means_agree,
+    ratio_problem,
+    uneven_problem,
 )
 
 
@@ -108,11 +108,11 @@ def visible_problem(normals: Numbers, view: Vector, alpha: float) -> str:
     if not is_right_across and _are_of_half_sphere(normals, np.array(view), alpha, bins):
         return "the normals are those of the half sphere: they are not brought back from it"
     if not is_right_across:
-        return uneven(_ASKEW, _ACROSS, across)
+        return uneven_problem(_ASKEW, _ACROSS, across)
     if not has_mean(up, 0.5, math.sqrt(1 / 12)):
-        return uneven(_leans_too_much(towards=bool(up.mean() < 0.5)), _UP, up)
+        return uneven_problem(_leans_too_much(towards=bool(up.mean() < 0.5)), _UP, up)
     if not is_uniform(up, 4 * bins):
-        return uneven(_NOT_AS_SEEN, _UP, up)
+        return uneven_problem(_NOT_AS_SEEN, _UP, up)
     return "" if is_uniform(shares, bins) else _NOT_AS_SEEN
 
 
@@ -154,17 +154,17 @@ def rough_problem(normals: Numbers, nothing: int, view: Numbers, alpha: float, e
     own = _kept_shares((x, y, z), alpha, eta)
     count = len(normals) + nothing
     lost = _TRIES - len(own)
-    if not happens_so_often(nothing, count, lost, _TRIES):
+    if not is_plausible_count(nothing, count, lost, _TRIES):
         words = f"nothing comes too {'often' if nothing * _TRIES > lost * count else 'seldom'}"
-        return off(words, np.array([nothing * _TRIES / (count * max(lost, 1))]))
+        return ratio_problem(words, np.array([nothing * _TRIES / (count * max(lost, 1))]))
     mine = _seen_shares(normals, view[0], alpha)
-    if not have_one_mean(mine[:, 0], own[:, 0]):
-        return uneven(_ASKEW, _ACROSS, mine[:, 0], own[:, 0])
-    if not have_one_mean(mine[:, 1], own[:, 1]):
+    if not means_agree(mine[:, 0], own[:, 0]):
+        return uneven_problem(_ASKEW, _ACROSS, mine[:, 0], own[:, 0])
+    if not means_agree(mine[:, 1], own[:, 1]):
         problem = _leans_too_much(towards=bool(mine[:, 1].mean() < own[:, 1].mean()))
-        return uneven(problem, _UP, mine[:, 1], own[:, 1])
+        return uneven_problem(problem, _UP, mine[:, 1], own[:, 1])
     bins = _MANY if count >= _MANY_NORMALS else _FEW
     for i, over in enumerate((_ACROSS, _UP)):
-        if not is_like(mine[:, [i]], own[:, [i]], 4 * bins):
-            return uneven(_NOT_AS_SEEN, over, mine[:, i], own[:, i])
-    return "" if is_like(mine, own, bins) else _NOT_AS_SEEN
+        if not has_same_distribution(mine[:, [i]], own[:, [i]], 4 * bins):
+            return uneven_problem(_NOT_AS_SEEN, over, mine[:, i], own[:, i])
+    return "" if has_same_distribution(mine, own, bins) else _NOT_AS_SEEN

@@ -8,7 +8,7 @@ import numpy as np
 from raysteps.common.vectors import Vector, add, cross, minus, times, unit
 from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, number_answer, read_vector
 from raysteps.judge.cases.path_tracing import (
-    SURE,
+    BOUNCES_BEFORE_ROULETTE,
     VERY_LATE,
     WHITE,
     length_problem,
@@ -17,7 +17,7 @@ from raysteps.judge.cases.path_tracing import (
     one_channel,
     path_answer,
 )
-from raysteps.judge.estimates import Estimates, estimates_problem
+from raysteps.judge.estimates import BatchMeans, estimates_problem
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, Real, Vec, f32, rounded, vector_words
 from raysteps.judge.random_source import RandomSource, next_axis
@@ -342,7 +342,7 @@ def _white(_draw: RandomSource, hit: MisHit) -> MisHit:
 def _faint(draw: RandomSource) -> Inputs:
     """Walls that take nearly all of the light, and a lamp so bright that what is left counts: nothing but roulette ends
     a path, and these bounces are sure."""
-    kinds = ("",) * draw.whole(1, SURE) + (("ex", "lx")[draw.whole(0, 1)],)
+    kinds = ("",) * draw.whole(1, BOUNCES_BEFORE_ROULETTE) + (("ex", "lx")[draw.whole(0, 1)],)
     walls, light = _script(draw, kinds).hits, draw.real(0.5, 1.0)
     found = []
     for wall in walls[:-1]:
@@ -412,8 +412,11 @@ def _late(draw: RandomSource) -> MisScript:
 
 def _met_late(draw: RandomSource) -> MisScript:
     """Bright walls, and lamps behind those from which on roulette is played: met as likely as sampled."""
-    hits = [_wall(draw, i, "", 0.9, 0.97) for i in range(SURE + 1)]
-    hits += [_wall(draw, SURE + 1 + i, kind, 0.9, 0.97) for i, kind in enumerate(("le", "l", "le", "le", "ex"))]
+    hits = [_wall(draw, i, "", 0.9, 0.97) for i in range(BOUNCES_BEFORE_ROULETTE + 1)]
+    hits += [
+        _wall(draw, BOUNCES_BEFORE_ROULETTE + 1 + i, kind, 0.9, 0.97)
+        for i, kind in enumerate(("le", "l", "le", "le", "ex"))
+    ]
     return MisScript(_BLACK, goes_on=False, hits=tuple(hits))
 
 
@@ -428,9 +431,9 @@ def _wall(draw: RandomSource, number: int, kind: str, low: float, high: float) -
 
 def _met_after_dark_wall(draw: RandomSource) -> MisScript:
     """A lamp that is met where few paths go on: roulette has no part in the density of their direction."""
-    walls = [_wall(draw, i, "", 0.95, 0.98) for i in range(SURE)]
-    dark = _wall(draw, SURE, "", 0.2, 0.4)
-    lamp = _hit(draw, SURE + 1, "ex")
+    walls = [_wall(draw, i, "", 0.95, 0.98) for i in range(BOUNCES_BEFORE_ROULETTE)]
+    dark = _wall(draw, BOUNCES_BEFORE_ROULETTE, "", 0.2, 0.4)
+    lamp = _hit(draw, BOUNCES_BEFORE_ROULETTE + 1, "ex")
     assert dark.scatter is not None
     alike = f32(dark.scatter.pdf * draw.logarithmic(0.5, 2))
     return MisScript(_BLACK, goes_on=False, hits=(*walls, dark, replace(lamp, light_pdf=alike)))
@@ -441,10 +444,10 @@ _LAMPS = 60  # to be asked: so whoever goes on too often asks much more
 
 def _dark_wall(draw: RandomSource) -> MisScript:
     """The wall behind which roulette begins takes nearly all of the light: so few paths go on from just there."""
-    walls = [_wall(draw, i, "", 0.95, 0.98) for i in range(SURE)]
+    walls = [_wall(draw, i, "", 0.95, 0.98) for i in range(BOUNCES_BEFORE_ROULETTE)]
     lamps = DirectSamples(tuple(_sample(draw) for _ in range(_LAMPS)))
-    last = replace(_hit(draw, SURE + 1, "x"), samples=lamps)
-    return MisScript(_BLACK, goes_on=False, hits=(*walls, _wall(draw, SURE, "", 0.02, 0.05), last))
+    last = replace(_hit(draw, BOUNCES_BEFORE_ROULETTE + 1, "x"), samples=lamps)
+    return MisScript(_BLACK, goes_on=False, hits=(*walls, _wall(draw, BOUNCES_BEFORE_ROULETTE, "", 0.02, 0.05), last))
 
 
 def mean_of_walls(script: MisScript) -> Vector:
@@ -486,7 +489,7 @@ def mean_of_plates(script: MisScript) -> Vector:
 _MAX_WORK = 12.0  # times the reference's: other weights that add up to 1 take up to 6, one way alone 40 and more
 
 
-def _many_problem(inputs: Inputs, expected: Estimates, actual: Estimates) -> str:
+def _many_problem(inputs: Inputs, expected: BatchMeans, actual: BatchMeans) -> str:
     """Who leaves one of the two ways out asks less; where that makes no noise it is right."""
     script = inputs["tracer"]
     assert isinstance(script, MisScript)

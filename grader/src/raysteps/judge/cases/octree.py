@@ -6,7 +6,7 @@ from raysteps.judge.cases.octree_boxes import BOUNDS_OF, CLIP, SPLIT
 from raysteps.judge.cases.octree_searches import CLOSEST_HIT_IN_OCTREE, OCCLUDED_IN_OCTREE
 from raysteps.judge.cases.tree_cases import ball, built, large_and_small, small_scene, small_sphere
 from raysteps.judge.functions import Function, Group
-from raysteps.judge.octrees import TREE
+from raysteps.judge.octrees import OCTREE
 from raysteps.judge.protocol import Box, Inputs, f32, rounded
 from raysteps.judge.random_source import RandomSource
 from raysteps.judge.surfaces import Sphere, Surface, Triangle
@@ -241,7 +241,7 @@ def _heap(draw: RandomSource) -> Inputs:
 
 BUILD_OCTREE = Function(
     "build_octree",
-    TREE,
+    OCTREE,
     (
         Group("spheres and triangles", lambda d: built(small_scene(d, 30, 8))),
         Group("many small spheres", lambda d: built(small_scene(d, 110, 0, largest=0.3)), saves=True),

@@ -30,10 +30,10 @@ from raysteps.judge.cases.tree_cases import (
     slope_and_balls,
     small_scene,
 )
-from raysteps.judge.functions import Function, Group, Make
+from raysteps.judge.functions import Function, Group, InputGenerator
 from raysteps.judge.protocol import Ray, f32, rounded
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.searches import ANY_HITS, SEARCHES, WhoseTree
+from raysteps.judge.searches import OCCLUSIONS, SEARCHES, TreeSource
 from raysteps.judge.surfaces import Triangle
 
 # The closest hit.
@@ -102,7 +102,7 @@ def _in_crowded_boxes(draw: RandomSource) -> RaysInScene:
     return many_rays(draw, small_scene(draw, 250, 50, largest=1.0))
 
 
-_closest = partial(search, WhoseTree, closest)
+_closest = partial(search, TreeSource, closest)
 
 CLOSEST_HIT_IN_OCTREE = Function(
     "closest_hit_in_octree",
@@ -173,13 +173,13 @@ def _exactly_there(draw: RandomSource, _surfaces: Scene, ray: Ray) -> float:
     return _to_the_lid(ray) + (0.125 if draw.chance(0.5) else 0.0)
 
 
-def _occluded(rays: MakeRays, distance: Distance, own: float = 0.5) -> Make:
-    return search(WhoseTree, occluded(distance), rays, own)
+def _occluded(rays: MakeRays, distance: Distance, own: float = 0.5) -> InputGenerator:
+    return search(TreeSource, occluded(distance), rays, own)
 
 
 OCCLUDED_IN_OCTREE = Function(
     "occluded_in_octree",
-    ANY_HITS,
+    OCCLUSIONS,
     (
         Group("in three levels of boxes", _occluded(one_ray, AROUND_THE_FIRST, own=0)),
         Group("in the tree of build_octree", _occluded(one_ray, AROUND_THE_FIRST, own=1)),

@@ -28,7 +28,7 @@ from raysteps.judge.draws import (
     words_of_directions,
     words_of_samples,
 )
-from raysteps.judge.estimates import Estimates, estimates_problem, plan, read_estimates, words_of_estimates
+from raysteps.judge.estimates import BatchMeans, estimates_problem, plan, read_estimates, words_of_estimates
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import (
     Fill,
@@ -47,7 +47,7 @@ from raysteps.judge.protocol import (
 )
 from raysteps.judge.random_source import RandomSource, next_axis
 from raysteps.judge.scripted_tracer import MAX_ASKED, MisScript, PathHit, PathScript, Scatter
-from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform, off, uneven
+from raysteps.judge.statistics import DEVIATIONS, Numbers, has_mean, is_uniform, ratio_problem, uneven_problem
 
 _BLACK: Vector = (0.0, 0.0, 0.0)
 WHITE: Vector = (1.0, 1.0, 1.0)
@@ -108,7 +108,7 @@ def _heights_problem(cosines: Numbers, heights: Numbers, bins: int) -> str:
     else:
         words = f"{'level' if heights.mean() > 0.5 else 'steep'} directions come too often"
     known = (name for name, power in _OTHER_DENSITIES.items() if _is_even(np.clip(cosines, 0.0, 1.0) ** power, bins))
-    return uneven(next(known, words) if len(cosines) >= _TELLING else words, over, heights)
+    return uneven_problem(next(known, words) if len(cosines) >= _TELLING else words, over, heights)
 
 
 def _density_problem(directions: Numbers, normal: Vector) -> str:
@@ -119,7 +119,7 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     cosines = directions @ np.array(normal)
     is_below = cosines < -_LEVEL
     if is_below.any():
-        below = off("a direction leads below the surface", is_below.mean(keepdims=True))
+        below = ratio_problem("a direction leads below the surface", is_below.mean(keepdims=True))
         return _axis_problem(directions, normal) or below
     if len(directions) < 2:
         return ""
@@ -128,7 +128,7 @@ def _density_problem(directions: Numbers, normal: Vector) -> str:
     heights, turns = shares[:, 0], shares[:, 1]
     if not (is_uniform(turns, 4 * bins) and has_mean(turns, 0.5, math.sqrt(1 / 12))):
         problem = "directions do not come evenly from all sides around the normal"
-        askew = uneven(problem, "directions around the normal, side by side", turns, goes_round=True)
+        askew = uneven_problem(problem, "directions around the normal, side by side", turns, goes_round=True)
         return _axis_problem(directions, normal) or askew
     if problem := _heights_problem(cosines, heights, bins):
         return problem
@@ -240,11 +240,11 @@ def _pdf_problem(pdfs: Numbers, cosines: Numbers) -> str:
     if np.ptp(pdfs) == 0 and pdfs[0] != 0:
         of_all = abs(pdfs[0] - 1 / (2 * math.pi)) < 1e-4
         words = "that of directions that are all equally likely" if of_all else "the same for all"
-        return off(f"the pdf is {words}", pdfs[:1])
+        return ratio_problem(f"the pdf is {words}", pdfs[:1])
     for words, factor in _WRONG_PDFS.items():
         if np.allclose(pdfs, factor * densities, rtol=2e-3, atol=1e-9):
             return words
-    return off(_OTHER_PDF, pdfs / densities)
+    return ratio_problem(_OTHER_PDF, pdfs / densities)
 
 
 def _weight_problem(weights: Numbers, fill: Fill, cosines: Numbers) -> str:
@@ -259,7 +259,7 @@ def _weight_problem(weights: Numbers, fill: Fill, cosines: Numbers) -> str:
         wrong = factor * cosines[steep, np.newaxis] ** power * albedo
         if steep.any() and np.allclose(weights[steep], wrong, rtol=2e-3, atol=0.0):
             return words
-    return off("the weight is not f cos / pdf", weights[steep].sum(axis=1) / albedo.sum())
+    return ratio_problem("the weight is not f cos / pdf", weights[steep].sum(axis=1) / albedo.sum())
 
 
 def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
@@ -373,7 +373,7 @@ _SURVIVAL = Function(
 # Whole paths. What a scene's rays meet is scripted. As long as no roulette is played one path gives the exact light;
 # with it, the mean of many is compared with the sum that the script makes certain.
 
-SURE = 3  # bounces before roulette, as in the contract
+BOUNCES_BEFORE_ROULETTE = 3  # bounces before roulette, as in the contract
 _ON_THE_HIT, _AT_THE_HIT = 5e-5, 0.02  # from the surface, in world units
 _DEGREES = 0.5
 _SMALLEST = 1e-12  # of a weight: what comes after it adds nothing
@@ -385,7 +385,7 @@ class _Light:
 
     color: Vector
     cast: tuple[Ray, ...]
-    many: Estimates | None
+    many: BatchMeans | None
 
 
 def _read_light(tokens: TokenReader) -> _Light:
@@ -448,16 +448,16 @@ _SPREAD = 1.5  # standard deviation of a path's questions, as a share of their m
 _SLACK = 0.01
 
 
-def length_problem(expected: Estimates, actual: Estimates) -> str:
+def length_problem(expected: BatchMeans, actual: BatchMeans) -> str:
     """Roulette says how many rays a path has on average. Who ends it by other rules asks more or less."""
     share = actual.cost / actual.count / (expected.cost / expected.count)
     most = _SLACK + DEVIATIONS * _SPREAD * math.sqrt(1 / actual.count + 1 / expected.count)
     if abs(share - 1) <= most:
         return ""
-    return off(f"paths {'go on for too long' if share > 1 else 'end too soon'}", np.array([share]))
+    return ratio_problem(f"paths {'go on for too long' if share > 1 else 'end too soon'}", np.array([share]))
 
 
-ManyProblem = Callable[[Inputs, Estimates, Estimates], str]
+ManyProblem = Callable[[Inputs, BatchMeans, BatchMeans], str]
 
 
 def _light_problem(of_many: ManyProblem, inputs: Inputs, expected: _Light, actual: _Light) -> str:
@@ -494,7 +494,7 @@ def path_answer(of_many: ManyProblem) -> Answer[_Light]:
     )
 
 
-def _many_problem(inputs: Inputs, expected: Estimates, actual: Estimates) -> str:
+def _many_problem(inputs: Inputs, expected: BatchMeans, actual: BatchMeans) -> str:
     script = inputs["tracer"]
     assert isinstance(script, PathScript)
     return first(length_problem(expected, actual), estimates_problem("the light", mean_light(script), expected, actual))
@@ -602,7 +602,7 @@ def _late(draw: RandomSource, bounces: int = _LATE) -> PathScript:
 
 def _dark_wall(draw: RandomSource) -> PathScript:
     """The wall behind which roulette begins takes most of the light: so few paths go on from just there."""
-    walls = _walls(draw, [*[(0.95, 0.98)] * SURE, (0.1, 0.15), (0.3, 0.5)])
+    walls = _walls(draw, [*[(0.95, 0.98)] * BOUNCES_BEFORE_ROULETTE, (0.1, 0.15), (0.3, 0.5)])
     return PathScript(draw.color(0.5, 1.0), goes_on=False, hits=walls)
 
 
@@ -632,7 +632,7 @@ def _bright(draw: RandomSource) -> Inputs:
 def _faint(draw: RandomSource) -> Inputs:
     """Walls that take nearly all of the light, and a lamp so bright that what is left counts: nothing but roulette ends
     a path, and these bounces are sure."""
-    walls = _hits(draw, ("", "s", "x") if draw.chance(0.3) else ("",) * draw.whole(1, SURE) + ("x",))
+    walls = _hits(draw, ("", "s", "x") if draw.chance(0.3) else ("",) * draw.whole(1, BOUNCES_BEFORE_ROULETTE) + ("x",))
     light, found = draw.color(0.5, 1.0), []
     for wall in walls:
         share = f32(draw.logarithmic(1e-3, 0.02))

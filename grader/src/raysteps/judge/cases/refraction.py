@@ -182,22 +182,22 @@ _AT_THE_HIT = 0.5  # a ray that starts farther away from the hit was not made by
 
 
 @dataclass(frozen=True)
-class _Brought:
+class _TransmittedLight:
     """The colour, and the rays that were traced for it."""
 
     color: Vector
     traced: tuple[tuple[Ray, int], ...]
 
 
-def _read_brought(tokens: TokenReader) -> _Brought:
+def _read_brought(tokens: TokenReader) -> _TransmittedLight:
     color = tokens.vector()
     count = tokens.whole(0, MAX_ASKED)
-    return _Brought(
+    return _TransmittedLight(
         color, tuple((Ray(tokens.vector(), tokens.vector()), tokens.whole(-MAX_ASKED)) for _ in range(count))
     )
 
 
-def _brought_words(answer: _Brought) -> str:
+def _brought_words(answer: _TransmittedLight) -> str:
     traced = "; ".join(f"{ray.words()} at depth {depth}" for ray, depth in answer.traced) or "none"
     return f"colour {vector_words(answer.color)}; rays traced: {traced}"
 
@@ -210,11 +210,11 @@ def _same_way(hit: Hit, expected: Ray, actual: Ray) -> str:
     return "" if hit.fill.index == 1 else direction("the traced ray's direction", expected.direction, actual.direction)
 
 
-def _brought_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str:
+def _brought_problem(inputs: Inputs, expected: _TransmittedLight, actual: _TransmittedLight) -> str:
     return first(_traced_problem(inputs, expected, actual), channels("the colour", expected.color, actual.color))
 
 
-def _traced_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str:
+def _traced_problem(inputs: Inputs, expected: _TransmittedLight, actual: _TransmittedLight) -> str:
     if _is_past_the_limit(inputs) and not actual.traced:
         return ""
     if len(expected.traced) != len(actual.traced):
@@ -230,7 +230,7 @@ def _traced_problem(inputs: Inputs, expected: _Brought, actual: _Brought) -> str
     return first(*problems)
 
 
-def _brought_credit(inputs: Inputs, expected: _Brought, actual: _Brought) -> float:
+def _brought_credit(inputs: Inputs, expected: _TransmittedLight, actual: _TransmittedLight) -> float:
     """Another ray with the right colour, or the right ray with another colour."""
     if not channels("", expected.color, actual.color):
         return 0.5

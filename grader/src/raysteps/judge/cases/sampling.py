@@ -22,7 +22,15 @@ from raysteps.judge.answers import (
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.protocol import Inputs, PixelSample, PixelSamples, Real, TokenReader, Whole, f32, text, whole_of
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, are_independent, has_mean, is_uniform, many_alike, off, uneven
+from raysteps.judge.statistics import (
+    Numbers,
+    are_independent,
+    has_many_near_pairs,
+    has_mean,
+    is_uniform,
+    ratio_problem,
+    uneven_problem,
+)
 
 # Stratified samples. Every order of the points is right, and every way to draw them: so no answer is compared with the
 # reference's, but each is tested for what the contract promises. The worker asks `times` times, each time with another
@@ -105,7 +113,7 @@ def _varies(numbers: Numbers) -> bool:
 
 def _copies(in_time: Numbers, shares: Numbers) -> str:
     """Numbers of one coordinate that come again, in other squares (the columns) or for other streams (the rows)."""
-    among_squares, among_streams = many_alike(in_time, _ROUNDING), many_alike(in_time.T, 0.0)
+    among_squares, among_streams = has_many_near_pairs(in_time, _ROUNDING), has_many_near_pairs(in_time.T, 0.0)
     if among_squares and among_streams and _varies(in_time.std(axis=0)):
         return _FEW_PLACES
     if among_squares:
@@ -144,7 +152,7 @@ def _problem_of_squares(shares: Numbers) -> str:
     for axis, way in zip("xy", points.T, strict=True):
         if not (is_uniform(way, 2 * bins) and has_mean(way, 0.5, math.sqrt(1 / 12))):
             problem = "the points do not lie everywhere in their squares, all places equally likely"
-            return uneven(problem, f"{axis} of the points, from one side of their squares to the other", way)
+            return uneven_problem(problem, f"{axis} of the points, from one side of their squares to the other", way)
     if not is_uniform(points, bins):
         return "x and y of a point have to do with each other"
     if any(_are_dependent(*pair) for pair in _pairs(shares)):
@@ -184,7 +192,9 @@ def _draws_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
     if (every < 0).any():
         return "a point lies outside of the unit square, below 0"
     if (every > 1).any():
-        return off(f"a point lies outside of the unit square, {'far ' if (every > _FAR).any() else ''}beyond 1", every)
+        return ratio_problem(
+            f"a point lies outside of the unit square, {'far ' if (every > _FAR).any() else ''}beyond 1", every
+        )
     shares = _in_squares(every[:-1], side)
     if shares is None:
         return _empty_squares(every[:-1], side)

@@ -12,9 +12,9 @@ from raysteps.judge.answers import (
     Answer,
     Tolerance,
     channels,
-    counted,
     first,
     itself,
+    numeric_problem,
     read_vector,
     real,
     share_right,
@@ -41,7 +41,15 @@ from raysteps.judge.protocol import (
     whole_of,
 )
 from raysteps.judge.random_source import RandomSource, next_axis
-from raysteps.judge.statistics import DEVIATIONS, SIGNIFICANCE, Numbers, has_mean, is_uniform, off, uneven
+from raysteps.judge.statistics import (
+    DEVIATIONS,
+    SIGNIFICANCE,
+    Numbers,
+    has_mean,
+    is_uniform,
+    ratio_problem,
+    uneven_problem,
+)
 
 # Many answers to one question: rows of numbers, and what the first u gave once more.
 
@@ -145,9 +153,11 @@ def _evenness(inputs: Inputs, places: _Places, shares: Numbers) -> str:
     words = ", and ".join(problems)
     along, around = shares[:, 0], shares[:, 1]
     if {places.low, places.high, places.uneven} & {*problems}:
-        return uneven(words, places.way, along)
+        return uneven_problem(words, places.way, along)
     goes_round = places is not _TRIANGLE
-    return uneven(words, places.way_around, around, goes_round=goes_round) if places.around in problems else words
+    return (
+        uneven_problem(words, places.way_around, around, goes_round=goes_round) if places.around in problems else words
+    )
 
 
 _TO_TELL = 4.0, 1e-4  # where points are uneven for certain, less is enough to tell how: it hangs less on chance
@@ -291,12 +301,12 @@ def _cap_problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
         return broken
     lengths = np.linalg.norm(actual.rows, axis=1)
     if float(np.abs(lengths - 1).max()) > 1e-3:
-        return off("a direction does not have length 1", lengths)
+        return ratio_problem("a direction does not have length 1", lengths)
     height = real_of(inputs, "height")
     found = _heights(actual.rows)
     along = found / height if height else np.zeros(len(found))
     if float(found.max()) > height * (1 + 1e-3) + 1e-12 + (1e-6 if height > 0.01 else 0.0):
-        return off("a direction lies outside of the cap", along)
+        return ratio_problem("a direction lies outside of the cap", along)
     return _evenness(inputs, _CAP, _shares(along, _turns(actual.rows[:, 0], actual.rows[:, 1])))
 
 
@@ -376,7 +386,7 @@ def _normal_problem(expected: Numbers, actual: _Draws) -> str:
     opposite = np.linalg.norm(actual.rows[:, _NORMAL] + expected, axis=1)
     if float(opposite.max()) <= 5e-3:
         return "a normal points to the dark side"
-    return off("a normal is wrong", (actual.rows[:, _NORMAL] * expected).sum(axis=1))
+    return ratio_problem("a normal is wrong", (actual.rows[:, _NORMAL] * expected).sum(axis=1))
 
 
 def _density_problem(expected: Numbers, actual: _Draws) -> str:
@@ -397,8 +407,8 @@ def _density_problem(expected: Numbers, actual: _Draws) -> str:
         kind = f"pdf is too {side}, by the same factor for all points"
         share = f"{factor:.2g}"
         tells = share != "1" and 0.01 <= abs(factor) < 99
-        return counted(kind, f"it is {share} times what it should be") if tells else off(kind, ratios)
-    return off(f"pdf is too {side}, and not by the same factor for all points", ratios)
+        return numeric_problem(kind, f"it is {share} times what it should be") if tells else ratio_problem(kind, ratios)
+    return ratio_problem(f"pdf is too {side}, and not by the same factor for all points", ratios)
 
 
 def _area_density(inputs: Inputs, area: float, normal: Numbers, actual: _Draws) -> Numbers:
@@ -698,7 +708,7 @@ def _where_rays_meet(origins: Numbers, directions: Numbers, ray: Ray, way: float
     if float(np.linalg.norm(to_place - along * middle)) > abs(along - way):
         return "rays meet in a point that lies beside the ray through the middle of the lens"
     side = "before" if along < way else "behind"
-    return off(f"rays meet {side} the plane of focus", np.array([along / way]))
+    return ratio_problem(f"rays meet {side} the plane of focus", np.array([along / way]))
 
 
 def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
@@ -727,7 +737,7 @@ def _lens_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str]:
         origin = ""
     lengths = np.linalg.norm(directions, axis=1)
     if float(np.abs(lengths - 1).max()) > 1e-3:
-        return origin, off("a direction does not have length 1", lengths)
+        return origin, ratio_problem("a direction does not have length 1", lengths)
     way = focus / dot(ray.direction, frame.forward)
     ways = np.array(add(ray.origin, ray.direction, way)) - origins
     wanted = ways / np.linalg.norm(ways, axis=1)[:, None]

@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from raysteps.common.vectors import Vector, add, minus, times, unit
-from raysteps.judge.functions import Make
+from raysteps.judge.functions import InputGenerator
 from raysteps.judge.protocol import Inputs, Ray, Real, f32, rounded
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.searches import Rays, Reach, Reaches, WhoseTree
-from raysteps.judge.surfaces import Scripted, Sphere, Surface, Surfaces, Triangle, first_distance
+from raysteps.judge.searches import Rays, RaySegment, RaySegments, TreeSource
+from raysteps.judge.surfaces import ScriptedSurface, Sphere, Surface, Surfaces, Triangle, first_distance
 
 # Scenes that trees are built of: small and large surfaces, balls in a grid, many close together.
 
@@ -78,7 +78,7 @@ def point_within(draw: RandomSource, surface: Surface) -> Vector:
     """A point well within the surface's outline."""
     if isinstance(surface, Sphere):
         return add(surface.center, draw.direction(), 0.7 * surface.radius * draw.real(0, 1))
-    assert not isinstance(surface, Scripted)
+    assert not isinstance(surface, ScriptedSurface)
     return times(1 / 3, add(add(surface.a, surface.b), surface.c))
 
 
@@ -206,7 +206,7 @@ def occluded_each(distance: Distance) -> Question:
     """Whether each ray meets anything before a distance of its own."""
 
     def ask(draw: RandomSource, surfaces: Scene, rays: tuple[Ray, ...]) -> Inputs:
-        return {"rays": Reaches(tuple(Reach(ray, distance(draw, surfaces, ray)) for ray in rays))}
+        return {"rays": RaySegments(tuple(RaySegment(ray, distance(draw, surfaces, ray)) for ray in rays))}
 
     return ask
 
@@ -245,7 +245,7 @@ def _is_own(draw: RandomSource, share: float) -> bool:
     return share == 1 or (share > 0 and draw.chance(share))
 
 
-def search(tree: type[WhoseTree], question: Question, rays: MakeRays, own: float = 0.5) -> Make:
+def search(tree: type[TreeSource], question: Question, rays: MakeRays, own: float = 0.5) -> InputGenerator:
     """`own`: the share of the cases in which the submission builds the tree itself."""
 
     def make(draw: RandomSource) -> Inputs:

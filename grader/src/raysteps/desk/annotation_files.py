@@ -42,7 +42,7 @@ _LINE = 2_000  # characters of a line that are kept
 
 
 @dataclass(frozen=True)
-class Said:
+class AnnotationDraft:
     """What somebody wants to have written. `after`: the last row about it that was known then."""
 
     kind: Kind
@@ -64,7 +64,7 @@ def manifests_of(database: ClassDatabase) -> dict[str, Step]:
     return {step.id: step for step in steps_of(convert(json.loads(text), list[GradedStep]))}
 
 
-class Scribe:
+class AnnotationWriter:
     """Adds to what was said what it is about: the line of the code, the points that the grader gave."""
 
     def __init__(self, database: ClassDatabase, name: str) -> None:
@@ -75,10 +75,10 @@ class Scribe:
         if self._current is not None:
             self._sources = database.sources(self._current["submission"], self._current["run"])
 
-    def write(self, said: Said) -> None:
+    def write(self, said: AnnotationDraft) -> None:
         annotate(self._database, self._name, self.annotation(said), after=said.after)
 
-    def annotation(self, said: Said) -> Annotation:
+    def annotation(self, said: AnnotationDraft) -> Annotation:
         """Refuses what makes no sense."""
         more: dict[str, Any] = {
             key: value for key, value in asdict(said).items() if key not in ("kind", "author", "after")
@@ -108,13 +108,13 @@ class Scribe:
         found = threads(annotations_of(self._database, self._current["submission"]))
         return next((thread.last for thread in found if thread.last.subject == subject), None)
 
-    def _line(self, source: Source | None, said: Said) -> dict[str, str]:
+    def _line(self, source: Source | None, said: AnnotationDraft) -> dict[str, str]:
         lines = source.lines if source is not None else []
         if source is None or not 0 < said.line <= len(lines):
             raise UsageError(f"line {said.line}: the code of step {said.step[:2]} has {len(lines)} lines")
         return {"source": source.sha256, "line_text": lines[said.line - 1][:_LINE]}
 
-    def _automatic(self, said: Said) -> float:
+    def _automatic(self, said: AnnotationDraft) -> float:
         """What the grader gives for the item; also whether there is such an item."""
         results = stored_results(self._current["document"]) if self._current is not None else None
         if results is None:
@@ -258,7 +258,7 @@ def _number(text: str, column: str, place: str) -> float:
     return found
 
 
-def _said(row: dict[str, str], author: str, place: str, steps: dict[str, Step]) -> Said:
+def _said(row: dict[str, str], author: str, place: str, steps: dict[str, Step]) -> AnnotationDraft:
     step = next((name for name in steps if row.get("step") and name.startswith(row["step"].zfill(2))), "")
     if row.get("step") and not step:
         raise UsageError(f"{place}: step is '{row['step']}', expected one of {', '.join(steps)}")
@@ -272,7 +272,7 @@ def _said(row: dict[str, str], author: str, place: str, steps: dict[str, Step]) 
         "points": _number(row.get("points", ""), "points", place),
     }
     try:
-        return convert(document, Said)
+        return convert(document, AnnotationDraft)
     except Malformed as error:
         raise UsageError(f"{place}: {error}") from error
 
@@ -299,11 +299,11 @@ def _import_csv(database: ClassDatabase, path: Path, data: bytes, author: str) -
     return new
 
 
-def _add_row(database: ClassDatabase, name: str, said: Said, author: str, place: str) -> bool:
+def _add_row(database: ClassDatabase, name: str, said: AnnotationDraft, author: str, place: str) -> bool:
     """The same row gives the same name to what it says, whoever takes it in: a file that is read twice adds nothing.
     `author` is whom the row names."""
     try:
-        made = Scribe(database, name).annotation(said)
+        made = AnnotationWriter(database, name).annotation(said)
     except UsageError as error:
         raise UsageError(f"{place}: {error}") from error
     content = [name, {**asdict(said), "author": author}]
