@@ -1,5 +1,6 @@
 """Models from elsewhere: what is read of them, the scene around them, and what is said of broken ones."""
 
+import json
 import random
 from dataclasses import replace
 from pathlib import Path
@@ -102,6 +103,24 @@ def test_a_part_of_a_gltf_file_is_where_its_node_puts_it(tmp_path: Path) -> None
     assert part.material.metal_roughness is None
 
 
+def test_numbers_of_a_gltf_file_are_no_text(tmp_path: Path) -> None:
+    """Whatever their first bytes are: those of the first number here are the mark of UTF-16."""
+    numbers = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype="<f4").tobytes()
+    (tmp_path / "three.bin").write_bytes(b"\xff\xfe" + numbers[2:])
+    document = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(numbers)}],
+        "buffers": [{"uri": "three.bin", "byteLength": len(numbers)}],
+    }
+    path = tmp_path / "three.gltf"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert len(read_model(path)[0][0].positions) == 3
+
+
 def test_normals_turn_with_their_part(tmp_path: Path) -> None:
     """Across the surface still where a part is drawn out along one axis."""
     ball = trimesh.creation.icosphere(subdivisions=3)
@@ -156,6 +175,7 @@ def test_what_is_not_beside_the_model_is_named(obj: Path, capsys: pytest.Capture
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", r"a\.obj:4: expected numbers of corners from 1 to 3, found"),
         ("a.obj", b"v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n", r"a\.obj:2: expected 3 numbers after `v`, found `v 1 z"),
         ("a.obj", b"v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", r"a\.obj:2: expected 3 numbers after `v`, found `v 1 0`"),
+        ("a.obj", b"v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\nf 1 2 9\n", r"a\.obj: (?!.*`v 1)"),
         ("a.obj", b"\xff\xfev\xd8", r"a\.obj: is no text, or a damaged one; expected a model"),
         ("a.gltf", b'{"asset": {"version": "1.0"}}', r"a\.gltf: expected glTF 2\.0"),
         ("a.gltf", b'{"asset": {"version": "2.0"}, "buf', r"a\.gltf: is no such model, or only a part of one"),

@@ -1,6 +1,5 @@
 """What a file of meshes and materials holds: OBJ with MTL, glTF, PLY, STL and OFF, read by trimesh."""
 
-import codecs
 import io
 import json
 import logging
@@ -187,7 +186,7 @@ def _check(path: Path, parts: Sequence[MeshPart]) -> None:
 
 def _plain(path: Path, data: bytes) -> bytes:
     """What is a text, in UTF-8 and with the line ends that trimesh knows."""
-    if path.suffix.lower() not in _TEXTS and data[:2] not in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+    if path.suffix.lower() not in _TEXTS:
         return data
     try:
         return decode(data).source
@@ -272,7 +271,10 @@ _NUMBERS = {"v": 3, "vn": 3, "vt": 1}  # of each line of an OBJ file, at least
 
 def _wrong_line(path: Path) -> str:
     """Of an OBJ file that trimesh stumbled over: the first line that is wrong, and why; empty where none is."""
-    lines = [line.split() or [""] for line in _plain(path, path.read_bytes()).decode().splitlines()]
+    text = _plain(path, path.read_bytes()).decode()
+    if "\\\n" in text:  # a line that goes on in the next one
+        return ""
+    lines = [line.split() or [""] for line in text.split("\n")]
     corners = sum(line[0] == "v" for line in lines)
     for number, (kind, *words) in enumerate(lines, start=1):
         wanted = _NUMBERS.get(kind, 0)
