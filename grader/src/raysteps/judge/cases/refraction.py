@@ -143,9 +143,9 @@ def _head_on(draw: RandomSource) -> Inputs:
 
 
 def _almost_head_on(draw: RandomSource) -> Inputs:
-    """At 3 to 8 degrees the ray bends by half a degree and more: who sends it straight on there is wrong."""
+    """At 2 to 5 degrees the ray bends by a third of a degree and more: who sends it straight on there is wrong."""
     normal, eta = draw.direction(), into(draw) if draw.chance(0.5) else index_of_glass(draw)
-    angle = math.radians(draw.real(3, 8))
+    angle = math.radians(draw.real(2, 5))
     direction = rounded(times(-1.0, draw.above(normal, math.cos(angle), math.cos(angle))))
     return {"direction": Vec(direction), "normal": Vec(normal), "eta": Real(eta)}
 
