@@ -258,9 +258,12 @@ def test_a_missing_function_is_named() -> None:
         ("Color specula(const Fill& fill) {\n}", "The file has specula: is that meant to be specular?"),
         ("Color specular(int fill) {\n}", "The file has specular, but with other arguments than the header's"),
         ("Color other(int fill);", ""),
-        ("// nothing yet\n\n", "The file is empty. Was it saved?"),
+        ("\n\n", "The file is empty. Was it saved?"),
+        ("// nothing yet\n\n", "nothing but comments. Is the code commented out?"),
         ('#include "steps/02-intersection/intersection.hpp"\nint f() { return 1; }', "is it that step's, saved"),
         ('#include "steps/02-a/a.hpp"\n#include "steps/04-shadows/shadows.hpp"\nint f() { return 1; }', ""),
+        ('#include "steps/02-a/a.hpp"\n#include <steps/04-shadows/shadows.hpp>\nint f() { return 1; }', ""),
+        ('#include "steps/02-a/a.hpp"\nColor specula() { return {}; }', "is that meant to be specular?"),
     ],
 )
 def test_a_missing_function_is_told_as_the_header_has_it(shadows: Step, source: str, told: str) -> None:

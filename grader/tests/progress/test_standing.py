@@ -165,6 +165,15 @@ def test_a_file_with_a_txt_behind_its_name_is_not_to_be_reset(course: Project, s
     assert "type   ./raysteps check 01" in text(console)
 
 
+def test_a_file_that_check_finds_elsewhere_is_not_to_be_reset(course: Project, steps: list[Step]) -> None:
+    path = course.steps / steps[0].path
+    path.write_text("int my_work = 1;\n", encoding="utf-8")
+    path.rename(course.steps / path.name)
+    console = printed()
+    next_step(course, console)
+    assert "type   ./raysteps check 01" in text(console)
+
+
 def test_what_is_only_closed_is_not_to_be_reset(course: Project, steps: list[Step]) -> None:
     """A folder in the place of the file: as with a file that is not to be read, the work may be there."""
     path = course.steps / steps[0].path

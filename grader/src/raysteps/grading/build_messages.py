@@ -242,7 +242,9 @@ def _as_in_a_header(name: str) -> str:
 
 def _in_its_place(names: tuple[str, ...], source: str) -> str:
     """A line about what the file has that may be meant to be the first of these, or nothing."""
-    if same_code(source, ""):
+    if source.strip() and same_code(source, ""):
+        return "\nThe file holds nothing but comments. Is the code commented out?"
+    if not source.strip():
         return "\nThe file is empty. Was it saved? `reset` with the number of the step puts the stub there."
     name = names[0].partition("(")[0].rpartition("::")[2]
     defined = list(dict.fromkeys(_DEFINED.findall(source)))[:_MAX_DEFINED]
@@ -332,12 +334,12 @@ def missing_message(names: tuple[str, ...]) -> str:
 def missing_here(step: Step, names: tuple[str, ...], source: str) -> str:
     """The same of names as a linker writes them, with what the file may have in their place."""
     names = tuple(map(_as_in_a_header, names))
-    return missing_message(names) + (_of_another_step(step, source) or _in_its_place(names, source))
+    return missing_message(names) + (_in_its_place(names, source) or _of_another_step(step, source))
 
 
 def _of_another_step(step: Step, source: str) -> str:
     """A line about a file that asks for the header of another step, and not for that of its own."""
-    headers = [name.strip('"') for name in included(source) if name.startswith('"steps/')]
+    headers = [name.strip('<>"') for name in included(source) if name[1:].startswith("steps/")]
     if not headers or any(name.startswith(f"steps/{step.id}/") for name in headers):
         return ""
     return f"\nThe file includes {printable(headers[-1])}: is it that step's, saved in the place of {step.file}?"

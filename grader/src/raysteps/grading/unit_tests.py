@@ -81,6 +81,9 @@ def _hung(name: str, seconds: float, *, sooner: bool) -> TestResult:
     return TestResult(name, False, said, outcome="timeout", limit="less-time" if sooner else "time")
 
 
+_EXIT_CALLED = "exit() was called"  # as framework/testing/main.cpp says it
+
+
 def _why_cut_short(ran: TaskResult) -> str:
     """What ended the program in the middle of a test, and how to find it."""
     if ran.stopped == "memory":
@@ -88,7 +91,10 @@ def _why_cut_short(ran: TaskResult) -> str:
     words = ran.outcome.signal_words
     if words is not None:
         return f"The program crashed in the middle of the test ({words}). {FIND_THE_LINE}"
-    return f"The program ended in the middle of the test, with {exit_words(ran.outcome)}. {FIND_THE_LINE}"
+    ended = "The program ended in the middle of the test"
+    if ran.outcome.stderr.rstrip().endswith(_EXIT_CALLED):
+        return f"{ended}: {_EXIT_CALLED}. {FIND_THE_LINE}"
+    return f"{ended}, with {exit_words(ran.outcome)}. {FIND_THE_LINE}"
 
 
 def run_tests(

@@ -132,13 +132,16 @@ def own_source(project: Project, step: Step) -> bytes | None:
 
 
 def misplaced(project: Project, step: Step) -> str:
-    """Of a step whose file is not there: which one may be meant, such as phong_shading.cpp.txt, or nothing."""
+    """Of a step whose file is not there: which one may be meant or is taken for it, such as phong_shading.cpp.txt, or
+    nothing."""
     from raysteps.submission.load import load_submission  # rarely, and it takes long to load
 
     try:
-        return load_submission(project.steps, [step]).notes.get(step.id, "")
+        found = load_submission(project.steps, [step])
     except UsageError:  # nothing that could be meant
         return ""
+    there = f"{step.file} lies elsewhere; it belongs at steps/{step.path.as_posix()}." if found.sources else ""
+    return found.notes.get(step.id) or found.remarks.get(step.id) or there
 
 
 def step_progress(project: Project, step: Step, last: LastCheck | None) -> StepProgress:
