@@ -116,9 +116,9 @@ _COLUMNS = ("uid", "subject", "kind", "author", "at")
 
 def _annotation(row: sqlite3.Row) -> Annotation:
     try:
-        said = dict(json.loads(row["content"])) | {name: row[name] for name in _COLUMNS}
+        said = {**json.loads(row["content"]), **{name: row[name] for name in _COLUMNS}}
         return convert(said, Annotation, extra=True)  # a newer kit may say more
-    except (ValueError, TypeError) as error:
+    except (ValueError, TypeError, RecursionError) as error:
         raise sqlite3.DatabaseError(f"annotation {row['serial']}: {error}") from error
 
 

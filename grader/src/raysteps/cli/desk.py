@@ -95,7 +95,9 @@ def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int
             console.print(f"{arguments.taken}: {told}", highlight=False, markup=False, soft_wrap=True)
         if arguments.export:
             amount = export_file(database, arguments.export)
-            console.print(f"{arguments.export}: {amount} written", highlight=False, markup=False, soft_wrap=True)
+            console.print(
+                f"{arguments.export}: {count(amount, 'row')} written", highlight=False, markup=False, soft_wrap=True
+            )
     if arguments.taken and not write_all(out):
         console.print(f"The files wait: {_busy(out)}", highlight=False, markup=False, soft_wrap=True)
     return 0

@@ -377,6 +377,7 @@ class _Handler(LocalHandler):
             return
         try:
             said = json.loads(self.rfile.read(int(length)))
+            json.dumps(said, ensure_ascii=False).encode()  # half a character can be written nowhere
         except (ValueError, RecursionError):
             self.answer(400, "Expected JSON.\n")
             return
@@ -393,8 +394,6 @@ class _Handler(LocalHandler):
             code, view = 409, {"error": str(error)}
         except RaystepsError as error:
             code, view = 400, {"error": str(error)}
-        except UnicodeEncodeError:
-            code, view = 400, {"error": "text: holds half a character"}
         except sqlite3.Error as error:
             code, view = 500, {"error": f"the database of the class: {error}"}
         self.answer(code, json.dumps(view, ensure_ascii=False), f"{JSON}; charset=utf-8")

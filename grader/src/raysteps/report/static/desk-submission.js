@@ -113,8 +113,7 @@ class DeskSubmission {
     );
     tabs.forEach((button, at) => {
       const { title, status } = this.view.steps[at];
-      button.title = `${title}: ${status.words}`;
-      button.append(make("span", { class: "hidden-text" }, `, ${button.title}`));
+      button.append(make("span", { class: "hidden-text" }, `, ${title}: ${status.words}`));
     });
     const nav = make("nav", { class: "desk-tabs", "aria-label": "Steps" }, ...tabs);
     nav.append(tab(deskWhole, "Whole", "", "0"));

@@ -36,6 +36,7 @@ class Desk {
   constructor() {
     this.rows = null;
     this.view = new DeskSubmission(document.getElementById("submission"), this);
+    document.getElementById("shown").textContent = "reading the class …";
     this.room = document.getElementById("class");
     this.table = document.querySelector(".class-table");
     this.wanted = null;
