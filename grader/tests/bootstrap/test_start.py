@@ -89,6 +89,7 @@ def test_what_takes_long_is_said_to_go_on(monkeypatch: pytest.MonkeyPatch, capsy
         ("play --no-open", "play"),
         ("play --port=8000 --registry https://npm.example.edu --out page", "play"),
         ("play --help", ""),
+        ("play --no-o --out -", "play"),
         ("play --foo", ""),
         ("play 03", ""),
         ("test --full", "dev"),

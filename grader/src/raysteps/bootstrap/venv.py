@@ -41,7 +41,7 @@ INSTRUCTOR = "instructor"
 PLAY = "play"  # also the command that needs it
 MAKER = "dev"  # the others, too
 _HELP = {"-h", "--help"}
-OF_PLAY = {"--port", "--no-open", "--no-browser", "--registry", "--out"}  # where another word follows, it is refused
+OF_PLAY = {"--port", "--no-open", "--no-browser", "--registry", "--out"}  # any other option is refused
 _OF_MAKERS = {"docs": (), "test": (), "dev": ("format", "lint")}  # commands, and what of them where it is not all
 
 
@@ -51,8 +51,9 @@ def set_for(words: Sequence[str]) -> str:
     if _HELP & {*rest}:
         return ""
     if command == PLAY:
-        options = {word.partition("=")[0] for word in rest if word.startswith("-")}
-        is_refused = options - OF_PLAY or (rest and not rest[0].startswith("-"))  # `play 03`
+        options = [word.partition("=")[0] for word in rest if word.startswith("--")]
+        is_unknown = any(not any(known.startswith(option) for known in OF_PLAY) for option in options)
+        is_refused = is_unknown or (rest and not rest[0].startswith("-"))  # `play --foo`, `play 03`
         return "" if is_refused else PLAY
     some = _OF_MAKERS.get(command)
     if some is None:
