@@ -352,12 +352,11 @@ def _times_alike(one: Sequence[float], other: Sequence[float]) -> bool:
         return False
     if not one:
         return True
-    chance = _TIMES_OF_CHANCE if len(one) < DECILES else 0.0
-    less, more = sorted(abs(sum(times)) / len(times) for times in (one, other))
+    less, more = sorted(sum(map(abs, times)) / len(times) for times in (one, other))
     far = max(abs(times - 1) for times in (*one, *other))
-    slack = _TIMES_ALIKE * far + chance
+    slack = _TIMES_ALIKE * far + (_TIMES_OF_CHANCE if len(one) < DECILES else 0.0)
     is_near = all(abs(a - b) <= slack for a, b in zip(one, other, strict=True))
-    return is_near and more <= _TIMES_APART * less + chance
+    return is_near and more <= _TIMES_APART * less + _TIMES_OF_CHANCE
 
 
 def answer_similarity(function: Function, case: Case, right: str, mistake: WrongAnswer, mine: WrongAnswer) -> float:

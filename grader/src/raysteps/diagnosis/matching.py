@@ -225,8 +225,8 @@ def pair_score(one: Agreement, other: Agreement) -> float:
 
 
 def best_pair(function: str, matches: Sequence[Match]) -> tuple[Match, Match] | None:
-    """The two that explain the function together; mistakes of this function only. Neither does where nearly all that
-    is alike is that nothing was found: so it looks whatever loses what is there."""
+    """The two that explain the function together; mistakes of this function only. None do where in most
+    of the cases that both have wrong nothing was found: so it looks whatever loses what is there."""
     here = [match for match in matches if match.mutant.function == function and match.functions[function].mistake]
     if any(match.functions[function].constant for match in here):
         return None
