@@ -320,7 +320,7 @@ void Wire::deliver(std::string_view batch) {
     Reader reader(std::string_view(kept.get(), batch.size()));
     while (!reader.at_end()) {
         const std::size_t number = reader.get<std::uint16_t>();
-        const MessageKind kind = reader.get<MessageKind>();
+        const auto kind = reader.get<MessageKind>();
         Conversation& talk = conversation(number);
         const bool begins = kind == MessageKind::question && talk.fiber == nullptr && may_begin(number);
         if (kind > MessageKind::unwound || talk.received || (side_ == Side::home && !talk.waiting && !begins)) {

@@ -99,7 +99,7 @@ def test_the_page_fits_a_phone(watched: Watched, server: PlayServer) -> None:
     expect(page.locator("#play-hints p")).to_be_in_viewport()
     expect(page.locator("#play-hints code").first).to_have_text("from")
     page.locator("#play-step").select_option("02")
-    status_says(page, r"0 of 16 tests pass", timeout=STARTED)
+    status_says(page, r"0 of 17 tests pass", timeout=STARTED)
     expect(page.locator("#play-handout h1")).to_be_in_viewport()
 
 

@@ -276,7 +276,7 @@ def test_a_step_that_cannot_be_loaded_can_be_chosen_again(watched: Watched, page
     expect(page.locator(".cm-content")).to_contain_text("// of step 01")
     page.unroute("**/steps/02.html")
     page.locator("#play-step").select_option("02")
-    status_says(page, r"Step 02: 0 of 16 tests pass", timeout=STARTED)
+    status_says(page, r"Step 02: 0 of 17 tests pass", timeout=STARTED)
     expect(page.locator("#play-file")).to_contain_text("02-intersection")
     expect(page.locator("#play-kept")).to_be_empty()
 
