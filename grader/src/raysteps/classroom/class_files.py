@@ -27,8 +27,7 @@ from raysteps.report.class_page import write_class_report
 from raysteps.report.student import REPORT, try_student_page
 from raysteps.results.class_model import ClassResults, GradedSubmission, Student
 from raysteps.results.model import Feedback, Results
-from raysteps.results.store import CASES_FOLDER as CASES
-from raysteps.results.store import stored_results
+from raysteps.results.store import CASES_FOLDER, stored_results
 
 # CSV that a spreadsheet shows and never runs.
 
@@ -60,7 +59,7 @@ _TABLES = ("results.csv", CLASS_JSON)
 
 def _forget_files(folder: Path, kept: set[str]) -> None:
     """Pictures and cases of an earlier result must not be taken for those of this one."""
-    for room, ending in ((folder / "pictures", "*.png"), (folder / CASES, "*.json")):
+    for room, ending in ((folder / "pictures", "*.png"), (folder / CASES_FOLDER, "*.json")):
         if room.is_symlink() or not room.is_dir():
             continue
         for path in list(room.rglob(ending)):
@@ -74,7 +73,7 @@ def _forget_files(folder: Path, kept: set[str]) -> None:
 def _withheld_cases(results: Results | None, names: Iterable[str]) -> set[str]:
     """Cases that were kept, but that the results for students do not name."""
     named = {item.case for step in results.steps for item in step.hidden} if results is not None else set()
-    return {name for name in names if name.startswith(f"{CASES}/") and name not in named}
+    return {name for name in names if name.startswith(f"{CASES_FOLDER}/") and name not in named}
 
 
 def _warn(words: str) -> None:

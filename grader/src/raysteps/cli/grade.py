@@ -25,7 +25,7 @@ from raysteps.grading.withhold import withhold
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results, Settings
-from raysteps.results.store import CASES_FOLDER as CASES
+from raysteps.results.store import CASES_FOLDER
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import load_submission, refuse_results_in, submission_name, submissions_inside
 from raysteps.toolchain.build_kit import build_kit
@@ -116,7 +116,7 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         return kit_command("replay", short_path(out / case), "--submission", options.submission)
 
     if options.out is not None:
-        refuse_results_in(options.submission, options.out, ("pictures", CASES))
+        refuse_results_in(options.submission, options.out, ("pictures", CASES_FOLDER))
     course = read_course(project).name
     sandbox = find_sandbox(require=options.require_sandbox)
     room = _room(project)

@@ -35,8 +35,9 @@ def executable(path: Path) -> Path:
 def own_command(root: Path | None = None) -> str:
     """What a person types before the name of a command: in the kit's folder, or in one below it where `root` names
     that."""
-    below = Path.cwd() if root is not None else Path()
-    up = "../" * len(below.relative_to(root).parts) if root is not None and below.is_relative_to(root) else ""
+    up = ""
+    if root is not None and Path.cwd().is_relative_to(root):
+        up = "../" * len(Path.cwd().relative_to(root).parts)
     return f"python {up}raysteps" if is_windows() else f"{up or './'}raysteps"
 
 

@@ -242,10 +242,10 @@ def _as_in_a_header(name: str) -> str:
 
 def _in_its_place(names: tuple[str, ...], source: str) -> str:
     """A line about what the file has that may be meant to be the first of these, or nothing."""
-    if source.strip() and same_code(source, ""):
-        return "\nThe file holds nothing but comments. Is the code commented out?"
     if not source.strip():
         return "\nThe file is empty. Was it saved? `reset` with the number of the step puts the stub there."
+    if same_code(source, ""):
+        return "\nThe file holds nothing but comments. Is the code commented out?"
     name = names[0].partition("(")[0].rpartition("::")[2]
     defined = list(dict.fromkeys(_DEFINED.findall(source)))[:_MAX_DEFINED]
     if "::" in names[0].partition("(")[0].replace("raysteps::", "") and name in defined:

@@ -19,8 +19,7 @@ from raysteps.grading.scoring import max_points, still_missing, test_weights
 from raysteps.grading.unit_tests import not_written_yet, run_tests
 from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
-from raysteps.results.store import CASES_FOLDER as CASES
-from raysteps.results.store import case_path
+from raysteps.results.store import CASES_FOLDER, case_path
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import (
@@ -78,10 +77,10 @@ def clear_old_results(out: Path, steps: list[Step], asked_again: list[Step]) -> 
                     picture.unlink()
             if not any(folder.iterdir()):
                 folder.rmdir()
-        if not (out / CASES).is_symlink():
+        if not (out / CASES_FOLDER).is_symlink():
             for name in (case_path(step.number, function) for step in asked_again for function in step.functions):
                 (out / name).unlink(missing_ok=True)
-        for room in (out / "pictures", out / CASES):
+        for room in (out / "pictures", out / CASES_FOLDER):
             if room.is_dir() and not room.is_symlink() and not any(room.iterdir()):
                 room.rmdir()
     except OSError as error:
