@@ -39,6 +39,10 @@ class ImageCase:
         """Whether it asks for a tree by name."""
         return "--accel" in self.args
 
+    @property
+    def is_noisy(self) -> bool:
+        return self.max_noise is not None
+
 
 @dataclass(frozen=True)
 class Step:

@@ -283,7 +283,7 @@ class Diagnostician:
     def _pictures(self, mine: Mapping[str, Pixels]) -> dict[str, Picture]:
         found = {}
         for case in self.step.images:
-            if case.max_noise is not None:
+            if case.is_noisy:
                 continue  # chance differs more than mistakes do: functions tell them
             reference = reference_picture(self.kit, self.kit.project.root / case.scene, case.args)
             if case.name in mine and mine[case.name].shape == reference.shape:

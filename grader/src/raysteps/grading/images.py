@@ -122,7 +122,7 @@ def may_carry_data(kit: BuiltKit) -> bool:
 def grade_image(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
-    noisy = case.max_noise is not None
+    noisy = case.is_noisy
     reference = shown_reference(gallery.kit, scene, case)
     rendered = gallery.render(program, scene, gallery.args_of(case), noisy=noisy)
     result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share, noisy=noisy)
@@ -197,7 +197,7 @@ def grade_integration(
     add up."""
     case = step.images[0]
     scene = gallery.kit.project.root / case.scene
-    rendered = gallery.render(program, scene, case.args, noisy=case.max_noise is not None)
+    rendered = gallery.render(program, scene, case.args, noisy=case.is_noisy)
     if rendered.pixels is None:
         return Integration(False, f"{case.name}: {trouble(rendered)[1]}")
     most_wrong = sum(max(image.max_wrong for image in other.images) for other in own)

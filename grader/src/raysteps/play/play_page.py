@@ -345,7 +345,7 @@ class PlayPage:
         scene = self._project.root / case.scene
         name = f"pictures/{step.number}/{case.name}.png"
         if self._project.has_reference:
-            noisy = case.max_noise is not None
+            noisy = case.is_noisy
             made = self._noisy(case, scene)[0] if noisy else self._kit.picture(scene, args)
             picture = made.with_suffix(".png")
             if not picture.is_file():
