@@ -277,6 +277,20 @@ def test_points_off_a_sphere_are_told_by_how_they_are_seen(reach: float, *, besi
     assert _problem(_FUNCTIONS["sample_sphere"], inputs, rows) == said
 
 
+@pytest.mark.parametrize(
+    ("group", "density", "said"),
+    [
+        ("from inside", 0.0, ""),
+        ("from inside", math.nan, "a sample is infinite or NaN"),
+        ("a few samples", 0.0, "a sample is infinite or NaN"),
+    ],
+)
+def test_from_inside_a_sphere_its_points_need_not_be_numbers(group: str, density: float, said: str) -> None:
+    rows = np.full((8, 7), math.nan)
+    rows[:, 6] = density
+    assert _problem(_FUNCTIONS["sample_sphere"], _inputs("sample_sphere", group), rows) == said
+
+
 def test_points_on_a_line_do_not_fill_a_square() -> None:
     numbers = np.random.default_rng(12).random(2048)
     line = np.stack([2 * numbers - 1, 2 * numbers - 1], axis=1)

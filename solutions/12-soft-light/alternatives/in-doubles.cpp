@@ -83,10 +83,7 @@ LightSample sample_sphere(const SphereLight& light, const glm::vec3& from, const
     const Vec away = Vec(from) - Vec(light.center);
     const double distance = glm::length(away);
     const double radius = light.radius;
-    if (distance <= radius) {
-        return {light.center, {0.0F, 1.0F, 0.0F}, 0.0F};
-    }
-    const double sine = radius / distance;
+    const double sine = radius / distance;  // above 1 from inside: no point is a number then
     const double height = sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
     const Vec view = cap(height, u);  // around the way from the eye to the centre
     const double across = std::hypot(view.x, view.y);
@@ -96,7 +93,8 @@ LightSample sample_sphere(const SphereLight& light, const glm::vec3& from, const
     const Vec side = across > 0.0 ? Vec(view.x / across, view.y / across, 0.0) : Vec(1.0, 0.0, 0.0);
     const Vec local = std::sin(at_center) * side + std::cos(at_center) * Vec(0.0, 0.0, 1.0);
     const Vec normal = turned(away / distance, local);
-    return sample_of(Vec(light.center) + radius * normal, normal, 1.0 / (2.0 * k_pi * height));
+    const double pdf = distance > radius ? 1.0 / (2.0 * k_pi * height) : 0.0;
+    return sample_of(Vec(light.center) + radius * normal, normal, pdf);
 }
 
 Color sampled_light(const HitRecord& hit, const Color& radiance, const LightSample& sample) {

@@ -422,19 +422,31 @@ def _area_density(inputs: Inputs, area: float, normal: Numbers, actual: _Draws) 
 _Problems = Callable[[Inputs, _Draws], tuple[str, str, str]]
 
 
-def _sample_answer(problems: _Problems) -> Answer[_Draws]:
-    """`problems`: of positions, normals and densities. Without right positions nothing is right."""
+def _sample_answer(problems: _Problems, is_seen: Callable[[Inputs], bool] = lambda _: True) -> Answer[_Draws]:
+    """`problems`: of positions, normals and densities. Without right positions nothing is right; where nothing of the
+    lamp is seen, any will do, also one that is no number."""
+
+    def told(inputs: Inputs, actual: _Draws) -> _Draws:
+        return actual if is_seen(inputs) else _without_points(actual)
 
     def problem(inputs: Inputs, _expected: _Draws, actual: _Draws) -> str:
-        return _broken(inputs, actual, "a sample") or first(*problems(inputs, actual))
+        draws = told(inputs, actual)
+        return _broken(inputs, draws, "a sample") or first(*problems(inputs, draws))
 
     def credit(inputs: Inputs, _expected: _Draws, actual: _Draws) -> float:
-        if _broken(inputs, actual, "a sample"):
+        draws = told(inputs, actual)
+        if _broken(inputs, draws, "a sample"):
             return 0.0
-        position, *others = problems(inputs, actual)
+        position, *others = problems(inputs, draws)
         return 0.0 if position else share_right(position, *others)
 
     return Answer(_reader(7), _words_of_draws, problem, credit, is_drawn=True)
+
+
+def _without_points(draws: _Draws) -> _Draws:
+    """The densities alone, all else as 0."""
+    is_density = np.arange(7) == _DENSITY
+    return _Draws(np.where(is_density, draws.rows, 0.0), np.where(is_density, draws.again, 0.0))
 
 
 def _beyond(of_b: Numbers, of_c: Numbers) -> str:
@@ -510,10 +522,14 @@ def _beside(heights: Numbers, local: Numbers) -> str:
     return "in a direction in which the sphere is not seen" if float(heights.min()) <= _SEEN else "and so do all others"
 
 
+def _is_outside(inputs: Inputs) -> bool:
+    return length(minus(vec_of(inputs, "center"), vec_of(inputs, "from"))) > real_of(inputs, "radius")
+
+
 def _sphere_problems(inputs: Inputs, actual: _Draws) -> tuple[str, str, str]:
     center, radius, from_ = vec_of(inputs, "center"), real_of(inputs, "radius"), vec_of(inputs, "from")
     distance = length(minus(center, from_))
-    if distance <= radius:
+    if not _is_outside(inputs):
         dark = np.zeros(len(actual.rows))
         return "", "", _density_problem(dark, actual)
     x, y, z = _basis(minus(center, from_))
@@ -601,7 +617,7 @@ _SAMPLE_DISK = Function(
 )
 _SAMPLE_SPHERE = Function(
     "sample_sphere",
-    _sample_answer(_sphere_problems),
+    _sample_answer(_sphere_problems, _is_outside),
     (
         Group("a few samples", lambda d: _sphere(d, d.real(1.2, 6), _FEW)),
         Group("many samples", lambda d: _sphere(d, d.real(1.2, 6), _MANY)),
