@@ -36,6 +36,8 @@ TEST_CASE("Sphere::overlaps: never a no too many", "[06-octree][Sphere::overlaps
     SECTION("a box far away: no, or the tree would save no tests") {
         CHECK_FALSE(Sphere({9.0F, 0.0F, 0.0F}, 1.0F, Fill{}).overlaps(k_cube));
         CHECK_FALSE(Sphere({0.0F, 0.0F, -9.0F}, 1.0F, Fill{}).overlaps(k_cube));
+        INFO("a gap of 0.5 between the sphere and a face of the cube");
+        CHECK_FALSE(Sphere({0.0F, 2.5F, 0.0F}, 1.0F, Fill{}).overlaps(k_cube));
     }
 }
 

@@ -425,8 +425,8 @@ def _wall(draw: RandomSource, number: int, kind: str, low: float, high: float) -
     hit = _hit(draw, number, kind)
     if hit.scatter is None:
         return hit
-    direction, pdf = hit.scatter.scatter.direction, hit.scatter.pdf
-    return replace(hit, scatter=WeighedScatter(Scatter(direction, draw.color(low, high)), pdf))
+    scatter = replace(hit.scatter.scatter, weight=draw.color(low, high))
+    return replace(hit, scatter=replace(hit.scatter, scatter=scatter))
 
 
 def _met_after_dark_wall(draw: RandomSource) -> MisScript:
@@ -443,8 +443,10 @@ _LAMPS = 60  # to be asked: so whoever goes on too often asks much more
 
 
 def _dark_wall(draw: RandomSource) -> MisScript:
-    """The wall behind which roulette begins takes nearly all of the light: so few paths go on from just there."""
-    walls = [_wall(draw, i, "", 0.95, 0.98) for i in range(BOUNCES_BEFORE_ROULETTE)]
+    """The wall behind which roulette begins takes nearly all of the light: so few paths go on from just there. One of
+    those before it is a mirror: bounces there count, too."""
+    mirror = draw.whole(0, BOUNCES_BEFORE_ROULETTE - 1)
+    walls = [_wall(draw, i, "s" if i == mirror else "", 0.95, 0.98) for i in range(BOUNCES_BEFORE_ROULETTE)]
     lamps = DirectSamples(tuple(_sample(draw) for _ in range(_LAMPS)))
     last = replace(_hit(draw, BOUNCES_BEFORE_ROULETTE + 1, "x"), samples=lamps)
     return MisScript(_BLACK, goes_on=False, hits=(*walls, _wall(draw, BOUNCES_BEFORE_ROULETTE, "", 0.02, 0.05), last))

@@ -56,7 +56,15 @@ def _sphere_on(draw: RandomSource, radius: tuple[float, float], size: tuple[floa
 
 def _sphere_far(draw: RandomSource) -> Inputs:
     sphere = Sphere(draw.point(3), draw.real(0.2, 2))
-    return {"sphere": sphere, "box": beyond(draw, sphere.center, sphere.radius)}
+    make = beyond if draw.chance(0.5) else _just_beyond
+    return {"sphere": sphere, "box": make(draw, sphere.center, sphere.radius)}
+
+
+def _just_beyond(draw: RandomSource, middle: Vector, reach: float) -> Box:
+    """A face is a little beyond the bounds of something; a ball around the box would reach them."""
+    half = draw.real(0.5, 1)
+    away = add(add(middle, draw.axis(), reach + half + draw.real(0.05, 0.2)), draw.point(0.02))
+    return Box(rounded(add(away, (half, half, half), -1)), rounded(add(away, (half, half, half), 1)))
 
 
 def _sphere_within(draw: RandomSource) -> Inputs:
