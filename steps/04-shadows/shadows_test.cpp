@@ -45,7 +45,8 @@ TEST_CASE("shadow_ray: aims at the light", "[04-shadows][shadow_ray]") {
 }
 
 TEST_CASE("shadow_ray: starts just off the surface", "[04-shadows][shadow_ray]") {
-    const HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
+    HitRecord hit = hit_at({1.0F, 2.0F, 0.0F}, k_up);
+    hit.distance = 40.0F;  // seen from far away
     for (const float height : {4.0F, -4.0F}) {
         const glm::vec3 light{4.0F, 2.0F, height};
         const Ray ray = shadow_ray(hit, {light, k_white});
