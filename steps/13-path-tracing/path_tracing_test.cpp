@@ -236,8 +236,10 @@ TEST_CASE("cosine_pdf: over all directions it adds up to 1", "[13-path-tracing][
 TEST_CASE("scatter_diffuse: weight and pdf belong to the direction", "[13-path-tracing][scatter_diffuse]") {
     RandomStream random(test_seed());
     for (const glm::vec3& normal : k_normals) {
-        const HitRecord hit = diffuse_hit(normal, Color(0.8F, 0.4F, 0.2F), 0.5F);
+        HitRecord hit = diffuse_hit(normal, Color(0.8F, 0.4F, 0.2F), 0.5F);
+        hit.fill.ks = 0.3F;  // no part of a diffuse surface
         for (int i = 0; i < 50; ++i) {
+            hit.front_face = i % 2 == 0;  // the same from both sides
             const std::optional<ScatterSample> sample = scatter_diffuse(hit, random.next_2d());
             REQUIRE(sample.has_value());
             CAPTURE(text(normal), text(sample->direction));

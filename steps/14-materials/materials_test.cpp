@@ -32,6 +32,7 @@ HitRecord hit_of(const glm::vec3& normal, const glm::vec3& view) {
     hit.ray_direction = -view;
     hit.distance = 1.0F;
     hit.fill.color = {0.9F, 0.6F, 0.3F};
+    hit.fill.kd = 0.4F;  // of matt surfaces: metal and glass do not ask for it
     hit.fill.index_of_refraction = 1.5F;
     return hit;
 }
