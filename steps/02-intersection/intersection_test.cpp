@@ -237,8 +237,9 @@ TEST_CASE("Sphere: misses beside and behind", "[02-intersection][Sphere::interse
     SECTION("the line passes the centre at 0.99: a hit") {
         CHECK(sphere.intersect({{0.99F, 0.0F, 5.0F}, down}).has_value());
     }
-    SECTION("the line passes the centre at exactly 1 and only touches the sphere: a hit") {
-        CHECK(sphere.intersect({{1.0F, 0.0F, 5.0F}, down}).has_value());
+    SECTION("the line passes the centre at exactly the radius and only touches the sphere: a hit") {
+        const Sphere large({0.0F, 0.0F, 0.0F}, 3.0F, Fill{});
+        CHECK(large.intersect({{3.0F, 0.0F, 4.0F}, down}).has_value());
     }
     SECTION("the line passes the centre at 1.01: a miss") {
         CHECK_FALSE(sphere.intersect({{1.01F, 0.0F, 5.0F}, down}).has_value());

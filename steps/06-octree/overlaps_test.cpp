@@ -1,4 +1,5 @@
-// Visible tests of step 06: which surfaces touch a box. A yes too many is allowed, a no too many loses hits.
+// Visible tests of step 06: which surfaces touch a box. A yes too many is allowed where their bounds touch it, a no too
+// many loses hits.
 #include "steps/06-octree/octree.hpp"
 #include "testing/testing.hpp"
 

@@ -288,7 +288,9 @@ def test_points_off_a_sphere_are_told_by_how_they_are_seen(reach: float, *, besi
 def test_from_inside_a_sphere_its_points_need_not_be_numbers(group: str, density: float, said: str) -> None:
     rows = np.full((8, 7), math.nan)
     rows[:, 6] = density
-    assert _problem(_FUNCTIONS["sample_sphere"], _inputs("sample_sphere", group), rows) == said
+    function, inputs = _FUNCTIONS["sample_sphere"], _inputs("sample_sphere", group)
+    assert _problem(function, inputs, rows) == said
+    assert _problem(function, inputs, rows[:0]) == "no proper answer came"
 
 
 def test_points_on_a_line_do_not_fill_a_square() -> None:

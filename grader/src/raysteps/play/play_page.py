@@ -372,7 +372,7 @@ class PlayPage:
 
     def _noise(self, step: Step, case: ImageCase, scene: Path, size: tuple[int, int]) -> dict[str, Any] | None:
         """What noise.js compares a noisy picture with."""
-        if case.max_noise is None:
+        if not case.is_noisy:
             return None
         if self._project.has_reference:
             parts = read_estimates(self._noisy(case, scene)[1].read_bytes()).in_parts()

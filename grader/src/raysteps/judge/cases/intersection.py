@@ -277,12 +277,17 @@ def _nearly_tangent(draw: RandomSource) -> Inputs:
     return _sphere_case(s, _at_sphere(draw, s, low, high, s.radius + draw.real(0.5, 3)), draw)
 
 
+_WHOLE = ((3.0, 4.0), (4.0, 3.0), (6.0, 8.0), (8.0, 6.0), (5.0, 12.0), (12.0, 5.0))  # legs of right triangles
+
+
 def _exactly_tangent(draw: RandomSource) -> Inputs:
-    """The ray touches the sphere in one point. All numbers are small and whole, so that every method sees a 0."""
+    """The ray touches the sphere in one point. All numbers are small and whole, the distance of the centre from the
+    start among them, so that every method sees a 0."""
     direction = draw.axis()
     beside = times(draw.sign(), next_axis(direction))
-    s = Sphere(draw.simple_point(4), float(draw.whole(1, 4)))
-    start = add(add(s.center, direction, -float(draw.whole(5, 9))), beside, s.radius)
+    radius, way = _WHOLE[draw.whole(0, len(_WHOLE) - 1)]
+    s = Sphere(draw.simple_point(4), radius)
+    start = add(add(s.center, direction, -way), beside, radius)
     return _sphere_case(s, Ray(start, direction), draw)
 
 

@@ -457,7 +457,7 @@ def mean_of_walls(script: MisScript) -> Vector:
     light, weight = np.zeros(3), np.ones(3)
     last: WeighedScatter | None = None
     for hit in script.hits:
-        met = 1.0 if last is None else _power(last.pdf, hit.light_pdf)
+        met = 1.0 if last is None or last.scatter.specular else _power(last.pdf, hit.light_pdf)
         light += weight * met * np.array(hit.emission)
         for sample in hit.samples.samples:
             light += weight * _power(sample.pdf, sample.scatter_pdf) * np.array(sample.light)

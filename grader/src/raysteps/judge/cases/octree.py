@@ -15,7 +15,7 @@ from raysteps.judge.surfaces import Sphere, Surface, Triangle
 def _touching_problem(_inputs: Inputs, expected: bool, actual: bool) -> str:
     if expected == actual:
         return ""
-    return "they touch, and the answer is no" if expected else "they are far apart, and the answer is yes"
+    return "they touch, and the answer is no" if expected else "they do not touch, and the answer is yes"
 
 
 TOUCHING = Answer(lambda tokens: tokens.flag(), lambda answer: str(answer).lower(), _touching_problem)

@@ -423,8 +423,8 @@ _Problems = Callable[[Inputs, _Draws], tuple[str, str, str]]
 
 
 def _sample_answer(problems: _Problems, is_seen: Callable[[Inputs], bool] = lambda _: True) -> Answer[_Draws]:
-    """`problems`: of positions, normals and densities. Without right positions nothing is right; where nothing of the
-    lamp is seen, any will do, also one that is no number."""
+    """`problems`: of positions, normals and densities. Without right positions nothing is right; where `is_seen` says
+    that nothing of the lamp is, any will do, also one that is no number."""
 
     def told(inputs: Inputs, actual: _Draws) -> _Draws:
         return actual if is_seen(inputs) else _without_points(actual)
@@ -445,8 +445,9 @@ def _sample_answer(problems: _Problems, is_seen: Callable[[Inputs], bool] = lamb
 
 def _without_points(draws: _Draws) -> _Draws:
     """The densities alone, all else as 0."""
-    is_density = np.arange(7) == _DENSITY
-    return _Draws(np.where(is_density, draws.rows, 0.0), np.where(is_density, draws.again, 0.0))
+    rows, again = draws.rows.copy(), draws.again.copy()
+    rows[:, :_DENSITY], again[:_DENSITY] = 0, 0
+    return _Draws(rows, again)
 
 
 def _beyond(of_b: Numbers, of_c: Numbers) -> str:
