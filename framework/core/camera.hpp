@@ -7,7 +7,7 @@ namespace raysteps {
 struct Camera {
     glm::vec3 from{0.0F, 0.0F, 5.0F};
     glm::vec3 at{0.0F};
-    glm::vec3 up{0.0F, 1.0F, 0.0F};  ///< neither unit length nor perpendicular to the view
+    glm::vec3 up{0.0F, 1.0F, 0.0F};  ///< need not be of unit length, nor perpendicular to the view
     float angle = 45.0F;             ///< full vertical field of view in degrees, top edge to bottom edge
     float hither = 0.0F;             ///< read and kept; the tracer has no near plane
     int width = 512;                 ///< pixels

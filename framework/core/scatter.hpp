@@ -11,7 +11,7 @@ struct ScatterSample {
     glm::vec3 direction{0.0F};  ///< unit length, away from the surface
     Color weight{0.0F};         ///< f cos / pdf: what the light that comes from there counts
     float pdf = 0.0F;           ///< density with which the direction was drawn, by solid angle
-    bool specular = false;      ///< the only direction there is, as from a mirror
+    bool specular = false;      ///< lamps are found by this ray alone: from mirrors and glass
 };
 
 /// A path goes on this far off its surface, for the same reason as a shadow ray. World units.

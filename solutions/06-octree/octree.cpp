@@ -315,7 +315,7 @@ Node build_octree(const SurfaceList& surfaces) {
 
 std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
     // BEGIN SOLUTION closest_hit_in_octree
-    // TODO: Visit the boxes that the ray enters, near ones first, and stop when no later box can hold a nearer hit.
+    // TODO: Visit the boxes that the ray enters, near ones first, and skip those that begin behind the nearest hit.
     // RETURN std::nullopt
     Search search{ray};
     if (search.enter(root.box, search.distance)) {

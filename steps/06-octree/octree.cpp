@@ -48,7 +48,7 @@ Node build_octree(const SurfaceList& surfaces) {
 }
 
 std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray) {
-    // TODO: Visit the boxes that the ray enters, near ones first, and stop when no later box can hold a nearer hit.
+    // TODO: Visit the boxes that the ray enters, near ones first, and skip those that begin behind the nearest hit.
     RAYSTEPS_TODO("06-octree", "closest_hit_in_octree");
     return std::nullopt;
 }

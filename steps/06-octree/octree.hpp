@@ -22,8 +22,8 @@ namespace raysteps {
 /// The smallest box around the bounds of all surfaces. No surfaces: an empty box, min above max.
 [[nodiscard]] Box bounds_of(const SurfaceList& surfaces);
 
-/// The eight halves of halves of the box, cut in the middle of each axis. Child i lies in the upper half of
-/// x when i & 1, of y when i & 2, of z when i & 4.
+/// The eight parts of the box, cut in the middle of each axis. Part i lies in the upper half of x when i & 1, of y when
+/// i & 2, of z when i & 4.
 [[nodiscard]] std::array<Box, 8> split(const Box& box);
 
 /// The tree over all surfaces. A surface is in the list of each leaf that it overlaps, or in the list of a
@@ -36,7 +36,7 @@ namespace raysteps {
 /// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Of several surfaces at the very same
 /// distance it is the first in the scene, the one with the smallest surface->order(): so a box that begins at the very
 /// distance of the nearest hit is searched, too. Ask a box with box.hit(ray) and a surface with surface->hit(ray): they
-/// count.
+/// count. The tree may be any: a node with children may have a list of its own, which is searched, too.
 [[nodiscard]] std::optional<HitRecord> closest_hit_in_octree(const Node& root, const Ray& ray);
 
 /// Whether any surface of the tree is hit nearer than `distance`: shadow rays ask no more than that. The search may

@@ -29,7 +29,7 @@ inline constexpr float k_max_survival = 0.95F;
 /// 0 where that is not above 0.
 [[nodiscard]] float survival_probability(const Color& weight);
 
-/// So often a path goes on from a surface before roulette is played.
+/// How many times a path goes on from a surface before roulette is played.
 inline constexpr int k_sure_bounces = 3;
 
 /// Light that comes back along the ray: an estimate from one path, right on average. The path has a weight, white at

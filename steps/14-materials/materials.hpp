@@ -42,7 +42,7 @@ namespace raysteps {
 /// becomes which normal is up to you. Unit length, z not below 0.
 [[nodiscard]] glm::vec3 sample_visible_normal(const glm::vec3& view, float alpha, const glm::vec2& u);
 
-/// The density, by solid angle, of the normals that view sees (Heitz 2018, equation 1):
+/// The density, by solid angle, of the normals that view sees (Heitz 2018, equation 3):
 ///     D(normal) dot(view, normal) / ((1 + lambda(view)) view.z);   0 where dot(view, normal) is not above 0.
 [[nodiscard]] float visible_normal_pdf(const glm::vec3& view, const glm::vec3& normal, float alpha);
 
