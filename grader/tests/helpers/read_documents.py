@@ -8,12 +8,20 @@ import sys
 from collections import defaultdict
 from collections.abc import Generator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import pytest
 
 FOLDER = "documents"  # of pytest's cache
 _MAY_BE, _IS_DOCUMENT = re.compile(r"docs\b|[.]md$"), re.compile(r"docs/|.*[.]md$")
+
+
+_Key: TypeAlias = tuple[str, str]
+
+
+def _key(fixture: pytest.FixtureDef[Any]) -> _Key:
+    """Where it is defined, and its name, which a parameter of other tests may have, too."""
+    return fixture.baseid, fixture.argname
 
 
 class ReadDocuments:
@@ -24,8 +32,8 @@ class ReadDocuments:
         self._opened: set[str] = set()
         self._file = ""
         self._by_file: defaultdict[str, set[str]] = defaultdict(set)
-        self._by_fixture: defaultdict[str, set[str]] = defaultdict(set)
-        self._users: defaultdict[str, set[str]] = defaultdict(set)
+        self._by_fixture: defaultdict[_Key, set[str]] = defaultdict(set)
+        self._users: defaultdict[_Key, set[str]] = defaultdict(set)
         sys.addaudithook(self._note)
 
     def _note(self, event: str, arguments: tuple[Any, ...]) -> None:
@@ -47,11 +55,12 @@ class ReadDocuments:
         return report
 
     @pytest.hookimpl(wrapper=True)
-    def pytest_runtest_protocol(self, item: pytest.Item) -> Generator[None, Any, Any]:
+    def pytest_runtest_protocol(self, item: pytest.Function) -> Generator[None, Any, Any]:
         """A test runs."""
         self._file = item.nodeid.partition("::")[0]
-        for fixture in getattr(item, "fixturenames", ()):
-            self._users[fixture].add(self._file)
+        for definitions in item._fixtureinfo.name2fixturedefs.values():
+            for fixture in definitions:
+                self._users[_key(fixture)].add(self._file)
         done = yield
         self._were_read_by(self._by_file[self._file])
         return done
@@ -62,7 +71,7 @@ class ReadDocuments:
         self._were_read_by(self._by_file[self._file])
         made = yield
         shared = fixturedef.scope != "function"
-        self._were_read_by(self._by_fixture[fixturedef.argname] if shared else self._by_file[self._file])
+        self._were_read_by(self._by_fixture[_key(fixturedef)] if shared else self._by_file[self._file])
         return made
 
     def pytest_sessionfinish(self) -> None:

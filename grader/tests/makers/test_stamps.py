@@ -310,8 +310,11 @@ def test_who_reads_a_document_unseen_runs_again(small: Project, monkeypatch: pyt
         "def page():\n    return open('/'.join(('..', 'do' + 'cs', 'page.m' + 'd'))).read()\n",
         encoding="utf-8",
     )
+    together = "import pytest\npytestmark = pytest.mark.xdist_group('one')\n"
     for name in ("a", "b"):
-        (tests / f"test_{name}.py").write_text("def test(page):\n    assert page\n", encoding="utf-8")
+        (tests / f"test_{name}.py").write_text(together + "def test(page):\n    assert page\n", encoding="utf-8")
+    own = "@pytest.mark.parametrize('page', [1])\ndef test(page):\n    assert page\n"  # what has that name only
+    (tests / "test_d.py").write_text(together + own, encoding="utf-8")
     (tests / "test_c.py").write_text(
         "PAGE = '../docs/page.md'\ndef test(page):\n    assert open(PAGE).read() == page\n", encoding="utf-8"
     )
@@ -321,7 +324,7 @@ def test_who_reads_a_document_unseen_runs_again(small: Project, monkeypatch: pyt
         assert [part.partition(", which")[0] for part in report.detail.split("; ") if "will run again" in part] == [
             f"grader/tests/test_{name}.py will run again, since it reads docs/page.md" for name in ("a", "b")
         ]
-        assert ("1 of 3 files are as before" in report.detail) is bool(again)
+        assert ("2 of 4 files are as before" in report.detail) is bool(again)
 
 
 @_READ_ONCE
