@@ -43,7 +43,7 @@ def references(kit: BuiltKit, step: Step) -> dict[str, Pixels]:
 
 def _wrong_share(case: ImageCase, mine: Pixels, right: Pixels) -> float:
     """0 where the picture passes."""
-    if case.max_noise is not None:
+    if case.is_noisy:
         return visibly_wrong_share(mine, right)
     seen = compare(mine, right, case.max_wrong)
     return 0.0 if seen.passed else seen.wrong_share

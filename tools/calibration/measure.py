@@ -158,7 +158,7 @@ def limited_pictures(project: Project, step: Step, seeds: range, folder: Path) -
         limits.append(LimitedPicture(step.id, "twins", twin.twin_of, twin.max_wrong, of_twin))
     for made_up, of_scene in zip(plan.random_scenes, views[len(plan.twins) :], strict=True):
         limits.append(LimitedPicture(step.id, "random_scenes", made_up.name, made_up.max_wrong, of_scene))
-    noisy = {image.name for image in step.images if image.max_noise is not None}  # their limits are not of pixels
+    noisy = {image.name for image in step.images if image.is_noisy}  # their limits are not of pixels
     return [limit for limit in limits if limit.name not in noisy]
 
 

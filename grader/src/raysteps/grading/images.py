@@ -122,10 +122,9 @@ def may_carry_data(kit: BuiltKit) -> bool:
 def grade_image(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
     scene = gallery.kit.project.root / case.scene
-    noisy = case.is_noisy
     reference = shown_reference(gallery.kit, scene, case)
-    rendered = gallery.render(program, scene, gallery.args_of(case), noisy=noisy)
-    result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share, noisy=noisy)
+    rendered = gallery.render(program, scene, gallery.args_of(case), noisy=case.is_noisy)
+    result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share, noisy=case.is_noisy)
     result.seconds = round(rendered.ran.outcome.seconds, 2)
     folder = Path("pictures") / step.id
     result.reference = (folder / f"{case.name}-reference.png").as_posix()
@@ -158,7 +157,7 @@ def grade_image(gallery: ImageGrader, program: Program, step: Step, case: ImageC
         )
     if rendered.pixels.shape == reference.shape:
         mine = rendered.pixels
-        if not noisy and may_carry_data(gallery.kit):
+        if not case.is_noisy and may_carry_data(gallery.kit):
             mine = reduced_picture(mine, reference, result.wrong_share)
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
         write_png(mine, gallery.out / result.mine)

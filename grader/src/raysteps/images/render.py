@@ -65,7 +65,7 @@ def write_reference_image(kit: BuiltKit, project: Project, step: Step, case: Ima
             "scene": content_hash(scene.read_bytes()),
             "work": None if work is None else asdict(work),
             "for_nothing": step_baseline_error(kit, step, scene, case),
-            "parts": None if case.max_noise is None else as_lists(reference_parts(kit, scene, case)),
+            "parts": as_lists(reference_parts(kit, scene, case)) if case.is_noisy else None,
         },
     )
 

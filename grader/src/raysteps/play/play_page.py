@@ -345,8 +345,7 @@ class PlayPage:
         scene = self._project.root / case.scene
         name = f"pictures/{step.number}/{case.name}.png"
         if self._project.has_reference:
-            noisy = case.is_noisy
-            made = self._noisy(case, scene)[0] if noisy else self._kit.picture(scene, args)
+            made = self._noisy(case, scene)[0] if case.is_noisy else self._kit.picture(scene, args)
             picture = made.with_suffix(".png")
             if not picture.is_file():
                 write_png(parse_ppm(made.read_bytes()), picture)

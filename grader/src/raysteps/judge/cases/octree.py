@@ -33,7 +33,11 @@ def beyond(draw: RandomSource, middle: Vector, reach: float) -> Box:
     way = draw.axis()
     size = (draw.real(0.3, 2), draw.real(0.3, 2), draw.real(0.3, 2))
     away = add(add(middle, way, reach + 1.0 + draw.real(0.5, 3)), draw.point(0.5))
-    return Box(rounded(add(away, size, -0.5)), rounded(add(away, size, 0.5)))
+    return _box(away, size)
+
+
+def _box(middle: Vector, size: Vector) -> Box:
+    return Box(rounded(add(middle, size, -0.5)), rounded(add(middle, size, 0.5)))
 
 
 def flattened(draw: RandomSource, box: Box, point: Vector) -> Box:
@@ -62,9 +66,9 @@ def _sphere_far(draw: RandomSource) -> Inputs:
 
 def _just_beyond(draw: RandomSource, middle: Vector, reach: float) -> Box:
     """A face is a little beyond the bounds of something; a ball around the box would reach them."""
-    half = draw.real(0.5, 1)
-    away = add(add(middle, draw.axis(), reach + half + draw.real(0.05, 0.2)), draw.point(0.02))
-    return Box(rounded(add(away, (half, half, half), -1)), rounded(add(away, (half, half, half), 1)))
+    side = draw.real(1, 2)
+    away = add(add(middle, draw.axis(), reach + side / 2 + draw.real(0.05, 0.2)), draw.point(0.02))
+    return _box(away, (side, side, side))
 
 
 def _sphere_within(draw: RandomSource) -> Inputs:
