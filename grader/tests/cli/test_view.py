@@ -15,7 +15,7 @@ from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
 from raysteps.images.compare import is_flat, read_ppm
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
-from tools.xvfb import NoScreen, hidden_screen
+from tools.figures.renders import NoScreen, hidden_screen
 
 _SECONDS = 60  # until something has surely gone wrong
 _PROGRAMS = ["view-reference", "inspect-reference", "raytrace-reference"]

@@ -17,7 +17,7 @@ from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from raysteps.toolchain.cmake import release_tree
 from raysteps.toolchain.kit_artifacts import BuiltKit
-from tools.xvfb import hidden_screen
+from tools.figures.renders import hidden_screen
 
 _AT = "https://github.com/course/checkout"
 _CLASSROOM = {

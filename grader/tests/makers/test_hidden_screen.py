@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from raysteps.common.errors import GraderFault
-from tools.xvfb import NoScreen, hidden_screen
+from tools.figures.renders import NoScreen, hidden_screen
 
 
 def _open_files() -> list[Path]:

@@ -1,14 +1,24 @@
-"""What a function that is asked with many random numbers gives: directions, or samples of a path's way on."""
+"""What a function that is asked with many random numbers gives: points and how even they are, directions, or samples of
+a path's way on."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from raysteps.judge.answers import no_number
-from raysteps.judge.protocol import ProtocolError, TokenReader, Whole, f32, text, vector_words
+from raysteps.judge.protocol import Inputs, ProtocolError, TokenReader, Whole, f32, text, vector_words, whole_of
 from raysteps.judge.random_source import RandomSource
-from raysteps.judge.statistics import Numbers, ratio_problem
+from raysteps.judge.statistics import (
+    DEVIATIONS,
+    SIGNIFICANCE,
+    Numbers,
+    has_mean,
+    is_uniform,
+    ratio_problem,
+    uneven_problem,
+)
 
 _MAX = 40_000
 _UNIT = 1e-4
@@ -17,6 +27,168 @@ _UNIT = 1e-4
 def draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
     """So many random points."""
     return {"seed": Whole(draw.whole(1, 1_000_000_000)), "times": Whole(amount)}
+
+
+# Points, directions or rays by the row.
+
+FEW, MANY, VERY_MANY = 8, 2048, 16_384
+_CORNERS = 16
+_MAX_ROWS = 100_000
+
+
+@dataclass(frozen=True)
+class Draws:
+    """Rows of numbers, and what the first u gave once more."""
+
+    rows: Numbers
+    again: Numbers
+
+
+def draws_reader(width: int) -> Callable[[TokenReader], Draws]:
+    """Reads rows of so many numbers."""
+
+    def read(tokens: TokenReader) -> Draws:
+        found = tokens.rows(width, _MAX_ROWS)
+        return Draws(found[:-1], found[-1:].ravel())
+
+    return read
+
+
+def words_of_draws(draws: Draws) -> str:
+    """How many, and the first of them."""
+    shown = ", ".join("(" + ", ".join(text(f32(number)) for number in row) + ")" for row in draws.rows[:4])
+    return f"{len(draws.rows)} answers, first {shown}"
+
+
+def corners() -> Inputs:
+    """No random points, but the corners of the unit square and places between them."""
+    return {"seed": Whole(0), "times": Whole(_CORNERS)}
+
+
+def broken_draws(inputs: Inputs, actual: Draws, what: str) -> str:
+    """What is wrong whatever was asked."""
+    if len(actual.rows) != whole_of(inputs, "times"):
+        return "no proper answer came"
+    if not np.isfinite(actual.rows).all():
+        return f"{what} is infinite or NaN"
+    if not np.array_equal(actual.rows[0], actual.again):
+        return "the same u gave another answer"
+    return ""
+
+
+def place_problem(problem: str, points: Numbers) -> str:
+    """A place that no point may have. One that all points have comes of no formula at all, as in a function that is
+    not written."""
+    alike = len(points) > 1 and bool((points == points[0]).all())
+    return f"{problem}, the same for every u" if alike else problem
+
+
+# Whether points lie evenly in a shape.
+
+
+@dataclass(frozen=True)
+class Region:
+    """How a shape is measured: of each point two numbers that are even from 0 to 1 where all of the shape is equally
+    likely, such as the square of the radius and the angle. What is said where they are not."""
+
+    low: str  # too many have a small first number
+    high: str
+    uneven: str
+    around: str  # the second number is uneven
+    way: str  # what the first number is
+    way_around: str
+
+
+DISK = Region(
+    "too many points lie near the middle",
+    "too many points lie near the rim",
+    "some rings get more points than others of the same area",
+    "some sides get more points than others",
+    "points from the middle to the rim, in rings of equal area",
+    "points around the middle, side by side",
+)
+CAP = Region(
+    "too many points lie near the middle of what can be seen",
+    "too many points lie near the rim of what can be seen",
+    "some rings get more points than others of the same solid angle",
+    "some sides get more points than others",
+    "points from the middle of what can be seen to its rim, in rings of equal solid angle",
+    "points around the middle, side by side",
+)
+TRIANGLE = Region(
+    "too many points lie near the first corner",
+    "too many points lie away from the first corner",
+    "points are not spread evenly from the first corner to the side opposite to it",
+    "points are not spread evenly between the second and the third corner",
+    "points from the first corner to the side opposite to it, in strips of equal area",
+    "points from the side of the second corner to that of the third",
+)
+
+
+def evenness(inputs: Inputs, region: Region, shares: Numbers) -> str:
+    """The corners of the unit square are even nowhere; of a few points no more can be told than that they differ."""
+    if whole_of(inputs, "seed") == 0:
+        return ""
+    if len(shares) < MANY:
+        return "" if 2 * len(np.unique(shares, axis=0)) > len(shares) else "different u give the same point"
+    is_found = bool(_uneven_problems(region, shares, DEVIATIONS, SIGNIFICANCE))
+    problems = _uneven_problems(region, shares, *_TO_TELL) if is_found else []
+    words = ", and ".join(problems)
+    along, around = shares[:, 0], shares[:, 1]
+    if {region.low, region.high, region.uneven} & {*problems}:
+        return uneven_problem(words, region.way, along)
+    goes_round = region is not TRIANGLE
+    return (
+        uneven_problem(words, region.way_around, around, goes_round=goes_round) if region.around in problems else words
+    )
+
+
+_TO_TELL = 4.0, 1e-4  # where points are uneven for certain, less is enough to tell how: it hangs less on chance
+
+
+def _uneven_problems(region: Region, shares: Numbers, deviations: float, significance: float) -> list[str]:
+    bins = 32 if len(shares) >= VERY_MANY else 8
+    along, around = shares[:, 0], shares[:, 1]
+
+    def has_middle(numbers: Numbers) -> bool:
+        return has_mean(numbers, 0.5, math.sqrt(1 / 12), deviations)
+
+    problems = []
+    if not has_middle(along):
+        problems.append(region.low if float(along.mean()) < 0.5 else region.high)
+    elif not is_uniform(along, 2 * bins, significance):
+        problems.append(region.uneven)
+    if not (has_middle(around) and is_uniform(around, 2 * bins, significance)):
+        problems.append(region.around)
+    if not is_uniform(_ranks(shares) if problems else shares, bins, significance):
+        problems.append("the two random numbers have to do with each other")
+    return problems
+
+
+def _ranks(shares: Numbers) -> Numbers:
+    """Each column made even: what is left tells whether one has to do with the other."""
+    order = np.argsort(shares, axis=0, kind="stable")
+    return np.asarray((np.argsort(order, axis=0) + 0.5) / len(shares))
+
+
+def turns_around(x: Numbers, y: Numbers) -> Numbers:
+    """Angles as shares of a whole turn."""
+    return np.asarray(np.arctan2(y, x) / (2 * math.pi) + 0.5)
+
+
+def as_shares(along: Numbers, around: Numbers) -> Numbers:
+    """Rows of both, with what rounding adds cut off."""
+    return np.clip(np.stack([along, around], axis=1), 0.0, 1.0)
+
+
+def heights_of_directions(directions: Numbers) -> Numbers:
+    """1 - z of unit vectors, from what they are long across, where 1 - z has no digits left."""
+    x, y, z = directions.T
+    squares = x * x + y * y
+    return np.asarray(np.where(z > 0, squares / (1 + np.sqrt(np.maximum(0.0, 1 - squares))), 1 - z))
+
+
+# Directions, and samples of a way on.
 
 
 def read_directions(tokens: TokenReader) -> Numbers:
