@@ -472,7 +472,8 @@ def _reals(words: list[str]) -> Numbers:
         return _refuse()
     try:
         with np.errstate(over="ignore"):
-            return np.array([float(word) for word in words], dtype=np.float32).astype(np.float64)
+            numbers = np.fromiter(map(float, words), np.float64, len(words))
+            return numbers.astype(np.float32).astype(np.float64)
     except ValueError:
         return _refuse()
 
