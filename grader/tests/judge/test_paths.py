@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from raysteps.judge.cases.mis import mean_of_plates, mean_of_walls
-from raysteps.judge.cases.path_tracing import FUNCTIONS, mean_light
+from raysteps.judge.cases.path_tracing import FUNCTIONS
+from raysteps.judge.cases.whole_paths import mean_light
 from raysteps.judge.functions import Case, Function
 from raysteps.judge.protocol import Fill, Hit, Inputs, Vec, Whole, text
 from raysteps.judge.scripted_tracer import (

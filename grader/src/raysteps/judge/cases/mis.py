@@ -7,7 +7,8 @@ import numpy as np
 
 from raysteps.common.vectors import Vector, add, cross, minus, times, unit
 from raysteps.judge.answers import Answer, Tolerance, channels, first, itself, number_answer, read_vector
-from raysteps.judge.cases.path_tracing import (
+from raysteps.judge.cases.whole_paths import (
+    BLACK,
     BOUNCES_BEFORE_ROULETTE,
     VERY_LATE,
     WHITE,
@@ -31,9 +32,6 @@ from raysteps.judge.scripted_tracer import (
     WeighedScatter,
 )
 from raysteps.judge.surfaces import Triangle
-
-_BLACK: Vector = (0.0, 0.0, 0.0)
-
 
 # Weights.
 
@@ -286,7 +284,7 @@ def _hit(draw: RandomSource, number: int, kind: str) -> MisHit:
     return MisHit(
         f32(number + 1 + draw.real(0.1, 0.8)),
         draw.direction(),
-        draw.color(0.5, 4.0) if "e" in kind else _BLACK,
+        draw.color(0.5, 4.0) if "e" in kind else BLACK,
         "b" not in kind,
         0.0 if "n" in kind else _density(draw),
         DirectSamples(tuple(samples)),
@@ -294,7 +292,7 @@ def _hit(draw: RandomSource, number: int, kind: str) -> MisHit:
     )
 
 
-def _script(draw: RandomSource, kinds: Sequence[str], background: Vector = _BLACK) -> MisScript:
+def _script(draw: RandomSource, kinds: Sequence[str], background: Vector = BLACK) -> MisScript:
     return MisScript(background, goes_on=False, hits=tuple(_hit(draw, i, kind) for i, kind in enumerate(kinds)))
 
 
@@ -310,7 +308,7 @@ def _plain(draw: RandomSource) -> Inputs:
 def _of_kinds(*choices: tuple[str, ...], background: bool = False) -> Callable[[RandomSource], Inputs]:
     def make(draw: RandomSource) -> Inputs:
         kinds = choices[draw.whole(0, len(choices) - 1)]
-        return once(draw, _script(draw, kinds, draw.color(0.1, 0.9) if background else _BLACK))
+        return once(draw, _script(draw, kinds, draw.color(0.1, 0.9) if background else BLACK))
 
     return make
 
@@ -323,14 +321,14 @@ def _changed(
     def make(draw: RandomSource) -> Inputs:
         script = _script(draw, choices[draw.whole(0, len(choices) - 1)])
         hits = tuple(change(draw, hit) for hit in script.hits)
-        return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+        return once(draw, MisScript(BLACK, goes_on=False, hits=hits))
 
     return make
 
 
 def _very_bright(draw: RandomSource, hit: MisHit) -> MisHit:
     """Whoever cuts bright light off makes the mean wrong."""
-    emission = draw.color(100, 5000) if any(hit.emission) else _BLACK
+    emission = draw.color(100, 5000) if any(hit.emission) else BLACK
     return replace(hit, emission=emission, samples=DirectSamples(tuple(_bright(draw) for _ in hit.samples.samples)))
 
 
@@ -354,7 +352,7 @@ def _faint(draw: RandomSource) -> Inputs:
     lamp = replace(walls[-1], emission=_brighter(walls[-1].emission, light))
     samples = (replace(sample, light=_brighter(sample.light, light)) for sample in lamp.samples.samples)
     hits = (*found, replace(lamp, samples=DirectSamples(tuple(samples))))
-    return once(draw, MisScript(_BLACK, goes_on=False, hits=hits))
+    return once(draw, MisScript(BLACK, goes_on=False, hits=hits))
 
 
 def _brighter(color: Vector, by: float) -> Vector:
@@ -368,7 +366,7 @@ def _one_colored(draw: RandomSource, hit: MisHit) -> MisHit:
 
 def _plate(draw: RandomSource, exponent: float, lamps: tuple[PlateLamp, ...], low: float, high: float) -> MisHit:
     scatter = WeighedScatter(Scatter(draw.direction(), draw.color(low, high)), 0.0)
-    return MisHit(2.5, draw.direction(), _BLACK, True, 0.0, DirectSamples(()), scatter, f32(exponent), lamps)
+    return MisHit(2.5, draw.direction(), BLACK, True, 0.0, DirectSamples(()), scatter, f32(exponent), lamps)
 
 
 def _lamp(draw: RandomSource, low: float, high: float = 1.0) -> PlateLamp:
@@ -376,7 +374,7 @@ def _lamp(draw: RandomSource, low: float, high: float = 1.0) -> PlateLamp:
 
 
 def _one_plate(draw: RandomSource, exponent: float, *lamps: PlateLamp) -> MisScript:
-    return MisScript(_BLACK, goes_on=False, hits=(_plate(draw, exponent, lamps, 0.4, 0.9),))
+    return MisScript(BLACK, goes_on=False, hits=(_plate(draw, exponent, lamps, 0.4, 0.9),))
 
 
 def _polished(draw: RandomSource) -> MisScript:
@@ -401,7 +399,7 @@ def _of_all_sizes(draw: RandomSource) -> MisScript:
 def _in_turn(draw: RandomSource) -> MisScript:
     """Plate after plate, and most of the light is found late."""
     lamp = _lamp(draw, draw.fine(0.98, 0.99))
-    return MisScript(_BLACK, goes_on=True, hits=(_plate(draw, draw.fine(3, 8), (lamp,), 0.8, 0.92),))
+    return MisScript(BLACK, goes_on=True, hits=(_plate(draw, draw.fine(3, 8), (lamp,), 0.8, 0.92),))
 
 
 def _late(draw: RandomSource) -> MisScript:
@@ -417,7 +415,7 @@ def _met_late(draw: RandomSource) -> MisScript:
         _wall(draw, BOUNCES_BEFORE_ROULETTE + 1 + i, kind, 0.9, 0.97)
         for i, kind in enumerate(("le", "l", "le", "le", "ex"))
     ]
-    return MisScript(_BLACK, goes_on=False, hits=tuple(hits))
+    return MisScript(BLACK, goes_on=False, hits=tuple(hits))
 
 
 def _wall(draw: RandomSource, number: int, kind: str, low: float, high: float) -> MisHit:
@@ -436,7 +434,7 @@ def _met_after_dark_wall(draw: RandomSource) -> MisScript:
     lamp = _hit(draw, BOUNCES_BEFORE_ROULETTE + 1, "ex")
     assert dark.scatter is not None
     alike = f32(dark.scatter.pdf * draw.logarithmic(0.5, 2))
-    return MisScript(_BLACK, goes_on=False, hits=(*walls, dark, replace(lamp, light_pdf=alike)))
+    return MisScript(BLACK, goes_on=False, hits=(*walls, dark, replace(lamp, light_pdf=alike)))
 
 
 _LAMPS = 60  # to be asked: so whoever goes on too often asks much more
@@ -449,7 +447,7 @@ def _dark_wall(draw: RandomSource) -> MisScript:
     walls = [_wall(draw, i, "s" if i == mirror else "", 0.95, 0.98) for i in range(BOUNCES_BEFORE_ROULETTE)]
     lamps = DirectSamples(tuple(_sample(draw) for _ in range(_LAMPS)))
     last = replace(_hit(draw, BOUNCES_BEFORE_ROULETTE + 1, "x"), samples=lamps)
-    return MisScript(_BLACK, goes_on=False, hits=(*walls, _wall(draw, BOUNCES_BEFORE_ROULETTE, "", 0.02, 0.05), last))
+    return MisScript(BLACK, goes_on=False, hits=(*walls, _wall(draw, BOUNCES_BEFORE_ROULETTE, "", 0.02, 0.05), last))
 
 
 def mean_of_walls(script: MisScript) -> Vector:

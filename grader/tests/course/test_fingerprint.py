@@ -4,8 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.course.project import Project
-from raysteps.toolchain.fingerprint import fingerprint
+from raysteps.course.project import Project, fingerprint
 
 pytestmark = pytest.mark.portable
 
