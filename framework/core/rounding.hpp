@@ -15,8 +15,8 @@ inline constexpr float k_distance_slack = 1e-5F;
 /// What to add to each side of the boxes within `all`, in world units: it follows the size of the scene and how far
 /// from the point 0 it lies.
 [[nodiscard]] inline float padding_within(const Box& all) {
-    constexpr float share = 2e-6F;
-    return share * (glm::length(all.max - all.min) + glm::length(all.min) + glm::length(all.max));
+    constexpr float k_share = 2e-6F;
+    return k_share * (glm::length(all.max - all.min) + glm::length(all.min) + glm::length(all.max));
 }
 
 /// The box between the two corners, with each side rounded outwards: all that lies between them lies in it.

@@ -1,6 +1,5 @@
 #pragma once
 // Where a ray and a surface meet, with the surface's name and shape.
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

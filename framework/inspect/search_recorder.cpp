@@ -1,7 +1,6 @@
 #include "inspect/search_recorder.hpp"
 
 #include <algorithm>
-#include <functional>
 
 namespace raysteps {
 namespace {

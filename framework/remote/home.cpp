@@ -53,8 +53,8 @@ const std::unique_ptr<Session> g_home = [] {
     std::unique_ptr<Session> session = open_session();
     if (session != nullptr) {
         set_work_runner([](int, const std::function<void()>& work) {
-            constexpr int k_most = 64;  // few enough for their stacks to stay in the cache
-            Session::current().wire().run_together(k_most, work);
+            constexpr int k_max_fibers = 64;  // few enough for their stacks to stay in the cache
+            Session::current().wire().run_together(k_max_fibers, work);
         });
         share_a_processor();
     }

@@ -33,7 +33,7 @@ struct NodeInfo {
     bool lists_wanted = false;  ///< whether the surface that was asked for is one of them
 };
 
-using NodeVisitor = std::function<void(const NodeInfo& place)>;
+using NodeVisitor = std::function<void(const NodeInfo& node)>;
 
 /// What stopped the last of several shadow rays: a number that only the structure itself can read. 0: nothing is known.
 using OccluderHint = std::uint32_t;

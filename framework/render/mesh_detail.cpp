@@ -7,7 +7,6 @@
 #include <unordered_map>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "core/mesh_triangle.hpp"
 #include "render/integrator.hpp"

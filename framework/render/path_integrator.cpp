@@ -39,8 +39,7 @@ public:
             if (light == k_black) {
                 return;
             }
-            const bool has_density = sample.pdf > 0.0F;
-            if (!has_density) {
+            if (!(sample.pdf > 0.0F)) {  // of point lights
                 samples.push_back({.light = light, .pdf = 1.0F});
                 return;
             }

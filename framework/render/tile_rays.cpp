@@ -9,18 +9,18 @@ constexpr std::size_t k_rays = 8;  // of a pixel with hints of their own; the la
 TileRays::TileRays(const Accelerator& accelerator, const Scene& scene)
     : RayCounter(accelerator),
       lights_(scene.lights.size() + scene.area_lights.size()),
-      places_(k_rays * lights_, Place(accelerator)) {}
+      queries_(k_rays * lights_, HintedQuery(accelerator)) {}
 
 const SceneQuery& TileRays::shadow_query(RayNumber ray, std::size_t light) {
-    return places_[std::min(ray, k_rays - 1) * lights_ + light];
+    return queries_[std::min(ray, k_rays - 1) * lights_ + light];
 }
 
-std::optional<HitRecord> TileRays::Place::closest_hit(const Ray& ray) const {
+std::optional<HitRecord> TileRays::HintedQuery::closest_hit(const Ray& ray) const {
     ++thread_stats().shadow;
     return scene_.closest_hit(ray);
 }
 
-bool TileRays::Place::occluded(const Ray& ray, float distance) const {
+bool TileRays::HintedQuery::occluded(const Ray& ray, float distance) const {
     ++thread_stats().shadow;
     return scene_.occluded_with_hint(ray, distance, hint_);
 }

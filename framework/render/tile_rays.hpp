@@ -18,9 +18,9 @@ public:
     [[nodiscard]] const SceneQuery& shadow_query(RayNumber ray, std::size_t light) override;
 
 private:
-    class Place final : public SceneQuery {
+    class HintedQuery final : public SceneQuery {
     public:
-        explicit Place(const Accelerator& scene) : scene_(scene) {}
+        explicit HintedQuery(const Accelerator& scene) : scene_(scene) {}
 
         [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override;
         [[nodiscard]] bool occluded(const Ray& ray, float distance) const override;
@@ -31,7 +31,7 @@ private:
     };
 
     std::size_t lights_;
-    std::vector<Place> places_;  ///< light by light for each ray of a pixel
+    std::vector<HintedQuery> queries_;  ///< light by light for each ray of a pixel
 };
 
 }  // namespace raysteps

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "render/renderer.hpp"
+#include "render/rect.hpp"
 
 namespace raysteps {
 

@@ -9,9 +9,9 @@
 namespace raysteps {
 namespace {
 
-using Place = SurfaceList::const_iterator;
+using Iterator = SurfaceList::const_iterator;
 
-bool holds(Place first, Place last, const Surface* wanted) {
+bool holds(Iterator first, Iterator last, const Surface* wanted) {
     return wanted != nullptr && std::find(first, last, wanted) != last;
 }
 

@@ -1,5 +1,6 @@
 #include "render/whitted_integrator.hpp"
 
+#include "core/path_tracer.hpp"
 #include "render/shading_hooks.hpp"
 #include "steps/05-reflection/reflection.hpp"
 #include "steps/08-refraction/refraction.hpp"
@@ -22,12 +23,12 @@ struct Chain {
 }  // namespace
 
 /// The Tracer of one call of a step's function, which knows what the rays are that the step sends:
-/// - the first is the one that the frame was made for
+/// - the first is the one that the tracer was made for
 /// - trace and each further question send a mirrored ray from the hit that came last, one deeper
-/// So a step that calls itself, or follows the ray in a loop, sends the rays of all bounces from one frame.
-class WhittedIntegrator::Frame : public Tracer {
+/// So a step that calls itself, or follows the ray in a loop, asks one tracer for the rays of all bounces.
+class WhittedIntegrator::CallTracer : public Tracer {
 public:
-    Frame(WhittedIntegrator& integrator, Chain& chain) : integrator_(integrator), chain_(chain) {}
+    CallTracer(WhittedIntegrator& integrator, Chain& chain) : integrator_(integrator), chain_(chain) {}
 
     [[nodiscard]] std::optional<HitRecord> closest_hit(const Ray& ray) const override {
         std::optional<HitRecord> hit = rays().closest_hit(chain_.next, ray);
@@ -64,9 +65,9 @@ private:
 };
 
 /// For the picture of an own step, which may send further rays from the eye.
-class WhittedIntegrator::PictureFrame final : public Frame {
+class WhittedIntegrator::PictureTracer final : public CallTracer {
 public:
-    using Frame::Frame;
+    using CallTracer::CallTracer;
 
     [[nodiscard]] Color trace(const Ray& ray, int depth) override {
         return integrator_.follow({.kind = depth == 1 ? RayKind::eye : RayKind::reflected, .depth = depth}, ray);
@@ -77,14 +78,14 @@ Color WhittedIntegrator::color_of(const Ray& ray) {
     const RayOrigin eye{.kind = RayKind::eye};
     const Color color = follow(eye, ray);
     Chain chain{.next = eye};
-    PictureFrame frame(*this, chain);
-    return apply_shading_hooks(frame, ray, color, options_.step);
+    PictureTracer tracer(*this, chain);
+    return apply_shading_hooks(tracer, ray, color, options_.step);
 }
 
 Color WhittedIntegrator::follow(const RayOrigin& origin, const Ray& ray) {
     Chain chain{.next = origin};
-    Frame frame(*this, chain);
-    const Color color = raysteps::trace(frame, ray, origin.depth);
+    CallTracer tracer(*this, chain);
+    const Color color = raysteps::trace(tracer, ray, origin.depth);
     if (chain.first != k_no_ray) {
         rays().arrived(chain.first, chain.next.from, color);
     }
@@ -93,7 +94,7 @@ Color WhittedIntegrator::follow(const RayOrigin& origin, const Ray& ray) {
 
 // What the surface sends out itself, and one sample of each lamp.
 Color WhittedIntegrator::area_lighting(const HitRecord& hit, RayNumber ray) {
-    Color color = hit.front_face ? hit.fill.emission : k_black;
+    Color color = emitted_light(hit);
     for (std::size_t light = 0; light < scene().area_lights.size(); ++light) {
         const LightSample sample = direct_.sample_of(light, hit, next_stream().next_2d());
         color += direct_.of_area_light(light, hit, ray, sample);
@@ -109,7 +110,7 @@ Color WhittedIntegrator::direct_lighting(const HitRecord& hit, int depth, RayNum
     std::optional<Color> transmitted;
     if (options_.step >= 8) {
         Chain chain{.next = {.kind = RayKind::refracted, .depth = depth + 1, .from = ray}};
-        Frame behind(*this, chain);
+        CallTracer behind(*this, chain);
         transmitted = transmitted_light(behind, hit, depth);
         color += *transmitted;
     }

@@ -12,8 +12,8 @@ public:
         : Integrator(scene, rays), direct_(scene, rays), options_(options) {}
 
 private:
-    class Frame;
-    class PictureFrame;
+    class CallTracer;
+    class PictureTracer;
 
     [[nodiscard]] Color color_of(const Ray& ray) override;
     [[nodiscard]] Color follow(const RayOrigin& origin, const Ray& ray);

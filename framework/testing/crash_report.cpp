@@ -46,9 +46,9 @@ extern "C" void __sanitizer_symbolize_pc(void* address, const char* format, char
 
 namespace {
 
-constexpr int kSamples = 10;
-constexpr suseconds_t kBetween = 100'000;  // microseconds of work
-constexpr time_t kPatience = 2;            // seconds of work that no test needs
+constexpr int k_samples = 10;
+constexpr suseconds_t k_microseconds_between = 100'000;  // microseconds of work
+constexpr time_t k_seconds_before = 2;                   // seconds of work that no test needs
 
 std::array<void*, 1000> calls{};  // functions of steps, the outermost first
 std::atomic<std::size_t> depth{0};
@@ -61,11 +61,11 @@ void print_sample(int /*signal*/) {
     if (samples == 0) {
         unfinished = std::min(depth.load(), calls.size());
     }
-    if (++samples <= kSamples && std::this_thread::get_id() == only_thread) {
+    if (++samples <= k_samples && std::this_thread::get_id() == only_thread) {
         std::fputs("still at work:\n", stderr);
         __sanitizer_print_stack_trace();
     }
-    if (samples == kSamples) {
+    if (samples == k_samples) {
         std::fputs("not returned:\n", stderr);
         for (std::size_t i = unfinished; i-- > 0;) {
             std::array<char, 1000> text{};
@@ -80,7 +80,7 @@ bool sample_what_has_no_end() {
     struct sigaction action = {};
     action.sa_handler = print_sample;
     action.sa_flags = SA_RESTART;
-    const itimerval timer{{0, kBetween}, {kPatience, 0}};
+    const itimerval timer{{0, k_microseconds_between}, {k_seconds_before, 0}};
     return sigaction(SIGVTALRM, &action, nullptr) == 0 && setitimer(ITIMER_VIRTUAL, &timer, nullptr) == 0;
 }
 

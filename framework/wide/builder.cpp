@@ -166,9 +166,9 @@ float Groups::cost() const {
 template <class Block>
 void Builder::add_blocks(Kind kind, std::vector<Block>& blocks, const Box& box, const SurfaceList& surfaces,
                          std::vector<Item>& items) {
-    constexpr std::size_t k_most = k_lanes * Reference::k_max_blocks;  // of an item
-    for (std::size_t done = 0; done < surfaces.size(); done += k_most) {
-        const std::size_t end = std::min(surfaces.size(), done + k_most);
+    constexpr std::size_t k_max_surfaces = k_lanes * Reference::k_max_blocks;  // of an item
+    for (std::size_t done = 0; done < surfaces.size(); done += k_max_surfaces) {
+        const std::size_t end = std::min(surfaces.size(), done + k_max_surfaces);
         const std::uint32_t first = place(blocks.size());
         for (std::size_t at = done; at < end; at += k_lanes) {
             blocks.emplace_back().surfaces = {.first = static_cast<std::uint32_t>(tree_.surfaces.size() + at - done),

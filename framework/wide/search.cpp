@@ -1,7 +1,6 @@
 #include "wide/search.hpp"
 
 #include <bit>
-#include <cmath>
 #include <glm/common.hpp>
 
 #include "core/rounding.hpp"

@@ -3,27 +3,26 @@
 namespace raysteps {
 namespace {
 
-constexpr int k_glass_sphere = 4;
-
 std::unique_ptr<Surface> read_surface(TokenReader& words, Fill fill, TestCounter& asked) {
-    const int kind = words.whole();
-    if (kind == 0 || kind == k_glass_sphere) {
-        fill.transmittance = kind == k_glass_sphere ? 1.0F : 0.0F;
-        const glm::vec3 center = words.vector();
-        return std::make_unique<CountingSphere>(center, words.number(), fill, asked);
+    const auto kind = words.one_of<SurfaceKind>("surface", SurfaceKind::glass_sphere);
+    switch (kind) {
+        case SurfaceKind::sphere:
+        case SurfaceKind::glass_sphere: {
+            fill.transmittance = kind == SurfaceKind::glass_sphere ? 1.0F : 0.0F;
+            const glm::vec3 center = words.vector();
+            return std::make_unique<CountingSphere>(center, words.number(), fill, asked);
+        }
+        case SurfaceKind::triangle: {
+            const glm::vec3 a = words.vector();
+            const glm::vec3 b = words.vector();
+            return std::make_unique<CountingTriangle>(a, b, words.vector(), fill, asked);
+        }
+        case SurfaceKind::distance:
+            return std::make_unique<ScriptedSurface>(words.number(), fill, asked);
+        case SurfaceKind::none:
+            break;
     }
-    if (kind == 1) {
-        const glm::vec3 a = words.vector();
-        const glm::vec3 b = words.vector();
-        return std::make_unique<CountingTriangle>(a, b, words.vector(), fill, asked);
-    }
-    if (kind == 2) {
-        return std::make_unique<ScriptedSurface>(words.number(), fill, asked);
-    }
-    if (kind == 3) {
-        return std::make_unique<ScriptedSurface>(std::nullopt, fill, asked);
-    }
-    throw ProtocolError("there is no surface of kind " + std::to_string(kind));
+    return std::make_unique<ScriptedSurface>(std::nullopt, fill, asked);
 }
 
 }  // namespace

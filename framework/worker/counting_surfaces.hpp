@@ -55,8 +55,11 @@ private:
     TestCounter& asked_;
 };
 
-/// How many, then each: 0 and a sphere (centre, radius), 1 and a triangle (three corners), 2 and a distance,
-/// 3 for a surface that no ray hits. Surface i has red (i + 1) / 256, by which an answer is known.
+/// What follows the number of each: centre and radius, three corners, a distance, or nothing for what no ray hits.
+enum class SurfaceKind { sphere, triangle, distance, none, glass_sphere };
+
+/// How many, then each: its SurfaceKind, and what that takes. Surface i has red (i + 1) / 256, by which an answer is
+/// known.
 [[nodiscard]] Scene read_surfaces(TokenReader& words, TestCounter& asked);
 
 }  // namespace raysteps

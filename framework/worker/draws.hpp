@@ -26,10 +26,10 @@ auto draw_often(TokenReader& words, const Draw& draw) {
 
 /// 1 and the sample, or 0 where there is none.
 inline void write_sample(TokenWriter& answer, const std::optional<ScatterSample>& sample) {
-    answer.whole(sample ? 1 : 0);
+    answer.flag(sample.has_value());
     if (sample) {
         answer.vector(sample->direction).vector(sample->weight).number(sample->pdf);
-        answer.whole(sample->specular ? 1 : 0);
+        answer.flag(sample->specular);
     }
 }
 

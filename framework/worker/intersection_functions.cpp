@@ -65,12 +65,12 @@ void ask_clip(TokenReader& words, TokenWriter& answer) {
 
 void ask_sphere_overlaps(TokenReader& words, TokenWriter& answer) {
     const Sphere sphere = read_sphere(words, false);
-    answer.whole(sphere.overlaps(read_box(words)) ? 1 : 0);
+    answer.flag(sphere.overlaps(read_box(words)));
 }
 
 void ask_triangle_overlaps(TokenReader& words, TokenWriter& answer) {
     const Triangle triangle = read_triangle(words, false);
-    answer.whole(triangle.overlaps(read_box(words)) ? 1 : 0);
+    answer.flag(triangle.overlaps(read_box(words)));
 }
 
 }  // namespace

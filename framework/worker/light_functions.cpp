@@ -49,7 +49,7 @@ void ask_is_lit(TokenReader& words, TokenWriter& answer) {
     const Light light = read_light(words);
     const ListQuery list(scene.surfaces());
     std::uint64_t rays = 0;
-    answer.whole(is_lit(CountingQuery(list, rays), hit, light) ? 1 : 0);
+    answer.flag(is_lit(CountingQuery(list, rays), hit, light));
     answer.whole(static_cast<long long>(rays));
 }
 

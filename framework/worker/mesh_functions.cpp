@@ -1,4 +1,6 @@
 // Meshes and their textures: step 11.
+#include <utility>
+
 #include "steps/11-meshes/meshes.hpp"
 #include "worker/functions.hpp"
 #include "worker/protocol.hpp"
@@ -26,13 +28,13 @@ Texture read_texture(TokenReader& words) {
     const int width = words.count();
     const int height = words.count();
     std::vector<Color> texels;
-    for (int left = width * height; left > 0; --left) {
+    for (long long left = static_cast<long long>(width) * height; left > 0; --left) {
         texels.push_back(words.vector());
     }
     return {width, height, std::move(texels)};
 }
 
-Wrap read_wrap(TokenReader& words) { return static_cast<Wrap>(words.whole()); }
+Wrap read_wrap(TokenReader& words) { return words.one_of<Wrap>("wrap", Wrap::clamp); }
 
 void ask_barycentric(TokenReader& words, TokenWriter& answer) {
     const MeshFace face = read_face(words);

@@ -44,8 +44,8 @@ std::uint32_t TokenReader::index() {
     const std::string text = word();
     char* end = nullptr;
     const long long value = std::strtoll(text.c_str(), &end, 10);
-    constexpr long long k_most = std::numeric_limits<std::uint32_t>::max();
-    if (end != text.c_str() + text.size() || value < 0 || value > k_most) {
+    constexpr long long k_max_index = std::numeric_limits<std::uint32_t>::max();
+    if (end != text.c_str() + text.size() || value < 0 || value > k_max_index) {
         throw ProtocolError("expected an index, found " + text);
     }
     return static_cast<std::uint32_t>(value);
@@ -175,7 +175,7 @@ void write_hit(TokenWriter& answer, const std::optional<HitRecord>& hit) {
     const Fill& fill = hit->fill;
     answer.vector(fill.color).number(fill.kd).number(fill.ks).number(fill.shine);
     answer.number(fill.transmittance).number(fill.index_of_refraction);
-    answer.vector(hit->normal).vector(hit->ray_direction).number(hit->distance).whole(hit->front_face ? 1 : 0);
+    answer.vector(hit->normal).vector(hit->ray_direction).number(hit->distance).flag(hit->front_face);
 }
 
 void write_box(TokenWriter& answer, const Box& box) { answer.vector(box.min).vector(box.max); }

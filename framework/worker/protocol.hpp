@@ -38,6 +38,15 @@ public:
     [[nodiscard]] std::uint32_t index();  ///< any that 32 bits hold, which is more than an int does
     [[nodiscard]] bool flag() { return whole() != 0; }
     [[nodiscard]] int count();  ///< from 0 to a million
+    /// One of the values of an enum, of which `last` is the last; `what` they are called in an error.
+    template <typename Enum>
+    [[nodiscard]] Enum one_of(const std::string& what, Enum last) {
+        const int number = whole();
+        if (number < 0 || number > static_cast<int>(last)) {
+            throw ProtocolError("there is no " + what + " " + std::to_string(number));
+        }
+        return static_cast<Enum>(number);
+    }
     [[nodiscard]] glm::vec3 vector();
     void expect_end();
 
@@ -51,6 +60,7 @@ public:
     TokenWriter& word(std::string_view word);
     TokenWriter& number(float value);  ///< the shortest text that reads back as the same float
     TokenWriter& whole(long long value);
+    TokenWriter& flag(bool value) { return whole(value ? 1 : 0); }
     TokenWriter& vector(const glm::vec3& value);
 
     [[nodiscard]] const std::string& text() const { return text_; }

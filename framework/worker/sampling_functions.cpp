@@ -22,13 +22,7 @@ int at_least(int least, int number) {
     return number;
 }
 
-Filter read_filter(TokenReader& words) {
-    const int kind = words.whole();
-    if (kind < 0 || kind > static_cast<int>(Filter::mitchell)) {
-        throw ProtocolError("there is no filter " + std::to_string(kind));
-    }
-    return static_cast<Filter>(kind);
-}
+Filter read_filter(TokenReader& words) { return words.one_of<Filter>("filter", Filter::mitchell); }
 
 // As often as asked, each time with a stream of its own, and at last with the first one again.
 void ask_stratified_samples(TokenReader& words, TokenWriter& answer) {

@@ -71,7 +71,7 @@ std::vector<Reach> read_reaches(TokenReader& words) {
 }
 
 void write_found(TokenWriter& answer, const std::optional<HitRecord>& hit) { write_hit(answer, hit); }
-void write_found(TokenWriter& answer, bool hit) { answer.whole(hit ? 1 : 0); }
+void write_found(TokenWriter& answer, bool hit) { answer.flag(hit); }
 
 // For each ray the surfaces asked, and what was found. A search that calls one that is not written, or wrong, is
 // answered by the reference's, which goes through copies of the surfaces: then what the program counts is told.

@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace raysteps {
@@ -168,22 +169,22 @@ void visit(const Node& node, Search& search) {
         float enter;
         const Node* child;
     };
-    std::array<Entry, 8> order;  // sorted by where the ray enters
+    std::array<Entry, 8> entries;  // sorted by where the ray enters
     std::size_t count = 0;
     for (const Node& child : node.children) {
         if (const std::optional<Interval> part = search.enter(child.box, search.distance)) {
             std::size_t place = count++;
-            for (; place > 0 && part->enter < order[place - 1].enter; --place) {
-                order[place] = order[place - 1];
+            for (; place > 0 && part->enter < entries[place - 1].enter; --place) {
+                entries[place] = entries[place - 1];
             }
-            order[place] = {part->enter, &child};
+            entries[place] = {part->enter, &child};
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
-        if (order[i].enter * (1.0F - k_distance_slack) > search.distance) {
+        if (entries[i].enter * (1.0F - k_distance_slack) > search.distance) {
             return;  // all that is in this box is behind the hit, and in all boxes after it
         }
-        visit(*order[i].child, search);
+        visit(*entries[i].child, search);
     }
 }
 
@@ -290,7 +291,11 @@ Node build_octree(const SurfaceList& surfaces) {
     SurfaceList large;
     SurfaceList others;
     for (const Surface* surface : surfaces) {
-        (diagonal(surface->bounds()) > limit ? large : others).push_back(surface);
+        if (diagonal(surface->bounds()) > limit) {
+            large.push_back(surface);
+        } else {
+            others.push_back(surface);
+        }
     }
     if (large.size() > k_max_above) {
         large.clear();
@@ -298,7 +303,7 @@ Node build_octree(const SurfaceList& surfaces) {
     }
     const Box all = bounds_of(surfaces);
     const float padding = padding_within(all);
-    Node root{.box = all.padded(padding), .surfaces = large, .children = {}};
+    Node root{.box = all.padded(padding), .surfaces = std::move(large), .children = {}};
     if (!others.empty()) {
         // Off centre: people model on grids, and what ends in the very middle would be in the cells on both sides.
         const Box tight = bounds_of(others);

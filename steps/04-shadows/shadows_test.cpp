@@ -1,8 +1,9 @@
 // Visible tests of step 04: the shadow ray, and whether a light is seen.
 #include "steps/04-shadows/shadows.hpp"
 
-#include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "steps/02-intersection/intersection.hpp"
 #include "testing/testing.hpp"
@@ -32,6 +33,20 @@ FakeScene scene_of(SurfaceList surfaces) {
 
 Sphere ball(const glm::vec3& center, float radius) { return {center, radius, Fill{}}; }
 
+/// Calls check(hit, light) for 200 hits, each with a light above it.
+template <typename Check>
+void with_hits_and_lights(const Check& check) {
+    Random random;
+    INFO(random);
+    for (int i = 0; i < 200; ++i) {
+        const HitRecord hit = hit_at(random.point(3.0F), random.unit_vector());
+        const float distance = random.uniform(2.0F, 30.0F);
+        const Light light{hit.position + distance * random.unit_vector_above(hit.normal, 0.2F), k_white};
+        CAPTURE(hit.position, hit.normal, light.position);
+        check(hit, light);
+    }
+}
+
 }  // namespace
 
 TEST_CASE("shadow_ray: aims at the light", "[04-shadows][shadow_ray]") {
@@ -58,13 +73,7 @@ TEST_CASE("shadow_ray: starts just off the surface", "[04-shadows][shadow_ray]")
 }
 
 TEST_CASE("shadow_ray: goes from the hit to the light for any of them", "[04-shadows][shadow_ray]") {
-    Random random;
-    INFO(random);
-    for (int i = 0; i < 200; ++i) {
-        const HitRecord hit = hit_at(random.point(3.0F), random.unit_vector());
-        const float distance = random.uniform(2.0F, 30.0F);
-        const Light light{hit.position + distance * random.unit_vector_above(hit.normal, 0.2F), k_white};
-        CAPTURE(hit.position, hit.normal, light.position);
+    with_hits_and_lights([](const HitRecord& hit, const Light& light) {
         const Ray ray = shadow_ray(hit, light);
         CAPTURE(ray);
         REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
@@ -72,29 +81,17 @@ TEST_CASE("shadow_ray: goes from the hit to the light for any of them", "[04-sha
         INFO("the ray must pass through the light");
         const glm::vec3 reached = ray.origin + glm::distance(ray.origin, light.position) * ray.direction;
         REQUIRE(glm::distance(reached, light.position) <= 1.5F * k_farthest_off);
-    }
+    });
 }
 
-TEST_CASE("shadow_ray: any hit and any light", "[04-shadows][shadow_ray]") {
-    Random random;
-    INFO(random);
-    for (int i = 0; i < 200; ++i) {
-        const HitRecord hit = hit_at(random.point(3.0F), random.unit_vector());
-        const float distance = random.uniform(2.0F, 30.0F);
-        const Light light{hit.position + distance * random.unit_vector_above(hit.normal, 0.2F), k_white};
-        CAPTURE(hit.position, hit.normal, light.position);
+TEST_CASE("shadow_ray: starts just off the surface for any hit and light", "[04-shadows][shadow_ray]") {
+    with_hits_and_lights([](const HitRecord& hit, const Light& light) {
         const Ray ray = shadow_ray(hit, light);
         CAPTURE(ray);
-        {
-            INFO("the start is off the surface, on the side of the normal, by no more than 0.01");
-            REQUIRE(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
-            REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
-        }
-        REQUIRE_THAT(ray.direction, IsUnitLength());
-        INFO("the ray must pass through the light");
-        const glm::vec3 reached = ray.origin + glm::distance(ray.origin, light.position) * ray.direction;
-        REQUIRE(glm::distance(reached, light.position) <= 1.5F * k_farthest_off);
-    }
+        INFO("the origin is off the surface, on the side of the normal, by no more than 0.01");
+        REQUIRE(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
+        REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
+    });
 }
 
 TEST_CASE("is_lit: in an empty scene every light is seen", "[04-shadows][is_lit]") {

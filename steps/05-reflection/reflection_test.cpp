@@ -1,6 +1,7 @@
 // Visible tests of step 05: the mirrored ray, and the recursion with its limit.
 #include "steps/05-reflection/reflection.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 #include <vector>
@@ -133,7 +134,8 @@ TEST_CASE("trace: local light plus ks times the mirrored light", "[05-reflection
     CHECK(glm::distance(tracer.cast[1].origin, mirror_hit.position) <= 0.5F);  // how far exactly: reflected_ray
     REQUIRE(tracer.shaded.size() == 2);
     INFO("direct_lighting is told at which depth the hit was found: 1, then 2");
-    CHECK(tracer.shaded[0].depth + tracer.shaded[1].depth == 3);
+    CHECK(std::min(tracer.shaded[0].depth, tracer.shaded[1].depth) == 1);
+    CHECK(std::max(tracer.shaded[0].depth, tracer.shaded[1].depth) == 2);
     INFO("a mirror that no lamp lights shows the red one as well");
     mirror_hit.fill.color = k_black;
     tracer.answer_in_order({mirror_hit, red_hit});

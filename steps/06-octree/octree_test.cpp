@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <string_view>
 #include <vector>
 

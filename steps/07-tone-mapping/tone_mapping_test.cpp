@@ -1,7 +1,6 @@
 // Visible tests of step 07: from light without limit to bytes.
 #include "steps/07-tone-mapping/tone_mapping.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "testing/testing.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Step 08 (bonus): light that passes through glass.
+// Step 08, bonus: light that passes through glass.
 #include <optional>
 
 #include "core/tracer.hpp"

@@ -1,5 +1,7 @@
 // Visible tests of step 09: what a cut costs.
+#include <glm/common.hpp>
 #include "steps/09-bvh/bvh.hpp"
+
 #include "testing/testing.hpp"
 
 using namespace raysteps;
@@ -50,7 +52,7 @@ TEST_CASE("surface_area: flat and empty boxes", "[09-bvh][surface_area]") {
     CHECK(surface_area(box_of({0.0F, 0.0F, 1.0F}, {2.0F, 2.0F, -1.0F})) == 0.0F);
 }
 
-TEST_CASE("split_cost: the worked example", "[09-bvh][split_cost]") {
+TEST_CASE("split_cost: the handout's worked example", "[09-bvh][split_cost]") {
     // Ten surfaces in a box of 4 x 2 x 2: nine of them in its first quarter, one in its last.
     const Box whole = box_of({0.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 2.0F});
     const Box first = box_of({0.0F, 0.0F, 0.0F}, {1.0F, 2.0F, 2.0F});

@@ -1,5 +1,6 @@
 // Visible tests of step 09: the same hits as without the tree, with fewer tests. But for one, searches are asked in a
 // tree that the tests make themselves.
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -83,7 +84,7 @@ TEST_CASE("closest_hit_in_bvh: the same hits as without the tree", "[09-bvh][clo
             direction[i % 3] = i % 2 == 0 ? 1.0F : -1.0F;
             glm::vec3 target = random.point(5.0F);
             if (i % 5 == 0) {
-                target = scene.surfaces()[static_cast<std::size_t>(i) % 275]->bounds().min;
+                target = scene.surfaces()[static_cast<std::size_t>(i) % scene.surfaces().size()]->bounds().min;
             }
             return Ray{target - 12.0F * direction, direction};
         };

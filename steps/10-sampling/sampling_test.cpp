@@ -1,8 +1,10 @@
 // Visible tests of step 10: where samples lie, how much each counts, and how light is shown.
 #include "steps/10-sampling/sampling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 

@@ -34,6 +34,7 @@ namespace raysteps {
 
 /// The colour at uv, blended from the four texels around it. The whole texture is 1 wide and 1 high; each texel's own
 /// colour is found in its middle, so that of the first one at u = 0.5 / width. Columns and rows are wrapped as above.
+/// No uv is farther than 1000 from 0.
 [[nodiscard]] Color bilinear(const Texture& texture, const glm::vec2& uv, Wrap wrap);
 
 /// The texture, then each level half as wide and half as high as the one before it, rounded up, down to 1 x 1. Texel

@@ -1,7 +1,6 @@
 // Visible tests of step 11: what a mesh says between its corners, and what a texture says between its texels.
 #include "steps/11-meshes/meshes.hpp"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>

@@ -22,7 +22,7 @@ namespace raysteps {
 /// Nothing where kd * color is black.
 [[nodiscard]] std::optional<ScatterSample> scatter_diffuse(const HitRecord& hit, const glm::vec2& u);
 
-/// No path goes on with a higher probability: so each one ends.
+/// Once roulette is played, no path goes on with a higher probability: so each one ends.
 inline constexpr float k_max_survival = 0.95F;
 
 /// The probability that a path of that weight goes on (Russian roulette): the largest channel, at most k_max_survival.

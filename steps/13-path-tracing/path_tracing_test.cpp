@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <vector>
 
 #include "testing/grid.hpp"
@@ -14,7 +16,7 @@ using namespace raysteps::testing;
 
 namespace {
 
-constexpr float k_pi = 3.14159265F;
+constexpr float k_pi = std::numbers::pi_v<float>;
 
 HitRecord diffuse_hit(const glm::vec3& normal, const Color& color, float kd = 1.0F) {
     HitRecord hit;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
 
 #include "testing/testing.hpp"
 
@@ -15,7 +17,7 @@ using namespace raysteps::testing;
 
 namespace {
 
-constexpr float k_pi = 3.14159265F;
+constexpr float k_pi = std::numbers::pi_v<float>;
 constexpr glm::vec3 k_up{0.0F, 0.0F, 1.0F};
 constexpr std::array<float, 4> k_alphas{0.05F, 0.2F, 0.5F, 1.0F};
 
@@ -88,7 +90,8 @@ void many_at_glass(int count, const HitRecord& hit, const See& see) {
 
 }  // namespace
 
-TEST_CASE("glass mirrors 4 % straight on, and all along its surface", "[14-materials][fresnel_dielectric]") {
+TEST_CASE("fresnel_dielectric: glass mirrors 4 % straight on, and all along its surface",
+          "[14-materials][fresnel_dielectric]") {
     CHECK(fresnel_dielectric(1.0F, 1.0F / 1.5F) == about(0.04F));
     CHECK(fresnel_dielectric(1.0F, 1.5F) == about(0.04F));
     CHECK(fresnel_dielectric(0.0F, 1.0F / 1.5F) == about(1.0F));
@@ -96,14 +99,15 @@ TEST_CASE("glass mirrors 4 % straight on, and all along its surface", "[14-mater
     CHECK(fresnel_dielectric(0.7F, 1.0F) == about(0.0F));
 }
 
-TEST_CASE("at Brewster's angle only light of one polarisation comes back", "[14-materials][fresnel_dielectric]") {
+TEST_CASE("fresnel_dielectric: at Brewster's angle only light of one polarisation comes back",
+          "[14-materials][fresnel_dielectric]") {
     INFO("where tan is the index: half of ((1 - n^2) / (1 + n^2))^2");
     const float cosine = 1.0F / std::sqrt(1.0F + 1.5F * 1.5F);
     const float across = (1.0F - 1.5F * 1.5F) / (1.0F + 1.5F * 1.5F);
     CHECK(fresnel_dielectric(cosine, 1.0F / 1.5F) == about(0.5F * across * across));
 }
 
-TEST_CASE("from inside the same share comes back as from outside, at the refracted angle",
+TEST_CASE("fresnel_dielectric: from inside the same share comes back as from outside, at the refracted angle",
           "[14-materials][fresnel_dielectric]") {
     for (const float outside : {0.2F, 0.5F, 0.8F}) {
         const float inside = std::sqrt(1.0F - (1.0F - outside * outside) / (1.5F * 1.5F));
@@ -112,14 +116,16 @@ TEST_CASE("from inside the same share comes back as from outside, at the refract
     }
 }
 
-TEST_CASE("where refraction is impossible all light comes back", "[14-materials][fresnel_dielectric]") {
+TEST_CASE("fresnel_dielectric: where refraction is impossible all light comes back",
+          "[14-materials][fresnel_dielectric]") {
     for (const float cosine : {0.0F, 0.3F, 0.7F}) {
         CHECK(fresnel_dielectric(cosine, 1.5F) == about(1.0F));
     }
     CHECK(fresnel_dielectric(0.75F, 1.5F) < 1.0F);
 }
 
-TEST_CASE("metal shows its colour straight on and becomes white along its surface", "[14-materials][fresnel_schlick]") {
+TEST_CASE("fresnel_schlick: metal shows its colour straight on and becomes white along its surface",
+          "[14-materials][fresnel_schlick]") {
     const Color gold(1.0F, 0.77F, 0.34F);
     CHECK_THAT(fresnel_schlick(gold, 1.0F), IsNear(gold));
     CHECK_THAT(fresnel_schlick(gold, 0.0F), IsNear(k_white));
@@ -127,7 +133,7 @@ TEST_CASE("metal shows its colour straight on and becomes white along its surfac
     CHECK_THAT(fresnel_schlick(gold, 0.5F), IsNear(gold + (k_white - gold) / 32.0F));
 }
 
-TEST_CASE("a polished metal mirrors", "[14-materials][scatter_mirror]") {
+TEST_CASE("scatter_mirror: a polished metal mirrors", "[14-materials][scatter_mirror]") {
     const ScatterSample sample = scatter_mirror(hit_of({0.0F, 1.0F, 0.0F}, {0.6F, 0.8F, 0.0F}));
     CHECK_THAT(sample.direction, IsNear({-0.6F, 0.8F, 0.0F}));
     CHECK_THAT(sample.weight, IsNear(fresnel_schlick({0.9F, 0.6F, 0.3F}, 0.8F)));
@@ -135,7 +141,7 @@ TEST_CASE("a polished metal mirrors", "[14-materials][scatter_mirror]") {
     CHECK(sample.specular);
 }
 
-TEST_CASE("straight up GGX is 1 / (pi alpha^2), and below there are no microfacets",
+TEST_CASE("ggx_distribution: straight up GGX is 1 / (pi alpha^2), and below there are no microfacets",
           "[14-materials][ggx_distribution]") {
     for (const float alpha : k_alphas) {
         CAPTURE(alpha);
@@ -147,7 +153,8 @@ TEST_CASE("straight up GGX is 1 / (pi alpha^2), and below there are no microface
     CHECK(ggx_distribution(leaning(0.3F), 1.0F) == about(1.0F / k_pi));
 }
 
-TEST_CASE("seen from above, all microfacets together cover the surface once", "[14-materials][ggx_distribution]") {
+TEST_CASE("ggx_distribution: seen from above, all microfacets together cover the surface once",
+          "[14-materials][ggx_distribution]") {
     for (const float alpha : {0.2F, 0.5F, 1.0F}) {
         CAPTURE(alpha);
         const float sum = over_half_sphere([&](const glm::vec3& n) { return n.z * ggx_distribution(n, alpha); });
@@ -155,7 +162,7 @@ TEST_CASE("seen from above, all microfacets together cover the surface once", "[
     }
 }
 
-TEST_CASE("nothing is hidden from above, and much from the side", "[14-materials][ggx_lambda]") {
+TEST_CASE("ggx_lambda: nothing is hidden from above, and much from the side", "[14-materials][ggx_lambda]") {
     CHECK(ggx_lambda(k_up, 0.5F) == about(0.0F));
     INFO("alpha tan = 1: (sqrt(2) - 1) / 2");
     CHECK(ggx_lambda({0.8F, 0.0F, 0.6F}, 0.75F) == about(0.2071068F));
@@ -163,7 +170,8 @@ TEST_CASE("nothing is hidden from above, and much from the side", "[14-materials
     CHECK(ggx_lambda(leaning(0.01F), 0.5F) > 20.0F);
 }
 
-TEST_CASE("the microfacets that a view sees fill as much of it as the surface does", "[14-materials][ggx_lambda]") {
+TEST_CASE("ggx_lambda: the microfacets that a view sees fill as much of it as the surface does",
+          "[14-materials][ggx_lambda]") {
     for (const float z : {0.2F, 0.5F, 0.9F}) {
         const glm::vec3 view = leaning(z);
         const float seen = over_half_sphere([&](const glm::vec3& normal) {
@@ -175,7 +183,8 @@ TEST_CASE("the microfacets that a view sees fill as much of it as the surface do
     }
 }
 
-TEST_CASE("visible normals have length 1 and point up", "[14-materials][sample_visible_normal]") {
+TEST_CASE("sample_visible_normal: visible normals have length 1 and point up",
+          "[14-materials][sample_visible_normal]") {
     for (const float alpha : k_alphas) {
         for (const float z : {1.0F, 0.6F, 0.05F}) {
             float flattest = 1.0F;
@@ -194,7 +203,7 @@ TEST_CASE("visible normals have length 1 and point up", "[14-materials][sample_v
     }
 }
 
-TEST_CASE("visible normals come as often as their density says",
+TEST_CASE("sample_visible_normal, visible_normal_pdf: visible normals come as often as their density says",
           "[14-materials][sample_visible_normal][visible_normal_pdf]") {
     INFO("means of x, y and z, drawn and added up over the half sphere");
     constexpr int k_count = 10000;
@@ -210,7 +219,7 @@ TEST_CASE("visible normals come as often as their density says",
     }
 }
 
-TEST_CASE("the density of visible normals adds up to 1", "[14-materials][visible_normal_pdf]") {
+TEST_CASE("visible_normal_pdf: the density of visible normals adds up to 1", "[14-materials][visible_normal_pdf]") {
     for (const float alpha : {0.3F, 1.0F}) {
         for (const float z : {1.0F, 0.5F, 0.1F}) {
             CAPTURE(alpha, z);
@@ -223,7 +232,7 @@ TEST_CASE("the density of visible normals adds up to 1", "[14-materials][visible
     CHECK(visible_normal_pdf(leaning(0.1F, 0.0F), leaning(0.3F, k_pi), 0.5F) == 0.0F);
 }
 
-TEST_CASE("rough metal: the worked example", "[14-materials][metal_brdf][metal_pdf]") {
+TEST_CASE("metal_brdf, metal_pdf: the handout's worked example", "[14-materials][metal_brdf][metal_pdf]") {
     const glm::vec3 view(0.6F, 0.0F, 0.8F);
     const glm::vec3 light(-0.6F, 0.0F, 0.8F);
     INFO("h is straight up: D = 1 / (pi / 4) = 1.2732, lambda = (sqrt(1 + 0.25 * 0.5625) - 1) / 2 = 0.0340");
@@ -231,7 +240,8 @@ TEST_CASE("rough metal: the worked example", "[14-materials][metal_brdf][metal_p
     CHECK(metal_pdf(view, light, 0.5F) == about(0.38479F));
 }
 
-TEST_CASE("rough metal sends as much from one direction to the other as back", "[14-materials][metal_brdf]") {
+TEST_CASE("metal_brdf: rough metal sends as much from one direction to the other as back",
+          "[14-materials][metal_brdf]") {
     const glm::vec3 one = leaning(0.4F);
     const glm::vec3 other = leaning(0.9F, 2.0F);
     const Color copper(0.95F, 0.64F, 0.54F);
@@ -239,7 +249,7 @@ TEST_CASE("rough metal sends as much from one direction to the other as back", "
     CHECK(metal_brdf(one, other, copper, 0.6F).r > 0.0F);
 }
 
-TEST_CASE("nothing goes through metal", "[14-materials][metal_brdf][metal_pdf]") {
+TEST_CASE("metal_brdf, metal_pdf: nothing goes through metal", "[14-materials][metal_brdf][metal_pdf]") {
     const glm::vec3 above = leaning(0.5F);
     const glm::vec3 below = leaning(-0.3F, 1.0F);
     CHECK(metal_brdf(above, below, k_white, 0.5F) == k_black);
@@ -252,7 +262,7 @@ TEST_CASE("nothing goes through metal", "[14-materials][metal_brdf][metal_pdf]")
     CHECK(metal_pdf(above, leaning(0.7F), 0.5F) > 0.0F);
 }
 
-TEST_CASE("what a path does at rough metal is f cos / pdf", "[14-materials][scatter_metal]") {
+TEST_CASE("scatter_metal: what a path does at rough metal is f cos / pdf", "[14-materials][scatter_metal]") {
     for (const float alpha : {0.1F, 0.4F, 1.0F}) {
         const HitRecord hit = rough_hit(0.7F, alpha);
         const glm::vec3 view = -hit.ray_direction;
@@ -273,7 +283,7 @@ TEST_CASE("what a path does at rough metal is f cos / pdf", "[14-materials][scat
     }
 }
 
-TEST_CASE("nearly smooth metal is a mirror", "[14-materials][scatter_metal]") {
+TEST_CASE("scatter_metal: nearly smooth metal is a mirror", "[14-materials][scatter_metal]") {
     const HitRecord hit = rough_hit(0.6F, 0.001F);
     const ScatterSample mirror = scatter_mirror(hit);
     int close = 0;
@@ -286,7 +296,8 @@ TEST_CASE("nearly smooth metal is a mirror", "[14-materials][scatter_metal]") {
     CHECK(close > 90);
 }
 
-TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back", "[14-materials][scatter_metal]") {
+TEST_CASE("scatter_metal: as rough as can be, seen from above, 1 - ln 2 of the light comes back",
+          "[14-materials][scatter_metal]") {
     INFO("metal that mirrors all, below a sky of 1: the rest would have met a second microfacet");
     HitRecord hit = rough_hit(1.0F, 1.0F);
     hit.fill.color = k_white;
@@ -301,7 +312,8 @@ TEST_CASE("as rough as can be, seen from above, 1 - ln 2 of the light comes back
     CHECK(static_cast<double>(sum) / k_count == Within{1.0 - std::log(2.0), 0.022});
 }
 
-TEST_CASE("the normal of the surface may point anywhere", "[14-materials][scatter_metal][scatter_glass]") {
+TEST_CASE("scatter_metal, scatter_glass: the normal of the surface may point anywhere",
+          "[14-materials][scatter_metal][scatter_glass]") {
     for (const glm::vec3& normal : {glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(0.48F, -0.64F, 0.6F)}) {
         HitRecord hit = hit_of(normal, normal);
         hit.fill.roughness = 0.02F;
@@ -320,7 +332,7 @@ TEST_CASE("the normal of the surface may point anywhere", "[14-materials][scatte
     }
 }
 
-TEST_CASE("clear glass mirrors some paths and refracts the others", "[14-materials][scatter_glass]") {
+TEST_CASE("scatter_glass: clear glass mirrors some paths and refracts the others", "[14-materials][scatter_glass]") {
     HitRecord hit = hit_of(k_up, {0.6F, 0.0F, 0.8F});
     hit.front_face = true;
     constexpr int k_count = 8000;
@@ -342,7 +354,7 @@ TEST_CASE("clear glass mirrors some paths and refracts the others", "[14-materia
     CHECK(std::abs(share - 0.0452F) < 0.015F);
 }
 
-TEST_CASE("glass from inside", "[14-materials][scatter_glass]") {
+TEST_CASE("scatter_glass: glass from inside", "[14-materials][scatter_glass]") {
     HitRecord hit = hit_of(k_up, {0.8F, 0.0F, 0.6F});
     hit.front_face = false;
     RandomStream random(test_seed(), 15);
@@ -363,7 +375,7 @@ TEST_CASE("glass from inside", "[14-materials][scatter_glass]") {
     CHECK(out > 50);
 }
 
-TEST_CASE("frosted glass spreads what goes through it", "[14-materials][scatter_glass]") {
+TEST_CASE("scatter_glass: frosted glass spreads what goes through it", "[14-materials][scatter_glass]") {
     const HitRecord hit = rough_hit(1.0F, 0.4F);
     glm::vec3 least(1.0F);
     glm::vec3 most(-1.0F);
@@ -379,7 +391,7 @@ TEST_CASE("frosted glass spreads what goes through it", "[14-materials][scatter_
     CHECK(most.y - least.y > 0.3F);
 }
 
-TEST_CASE("frosted glass mirrors alike at all the microfacets that it meets from above",
+TEST_CASE("scatter_glass: frosted glass mirrors alike at all the microfacets that it meets from above",
           "[14-materials][scatter_glass]") {
     INFO("a microfacet that leans by 20 degrees mirrors 4 % of the light, just as one that lies flat");
     constexpr float k_alpha = 0.1F;
@@ -404,7 +416,7 @@ TEST_CASE("frosted glass mirrors alike at all the microfacets that it meets from
     CHECK(glm::length(side / mirrored) < 0.3F);
 }
 
-TEST_CASE("frosted glass hides some of its microfacets, both ways", "[14-materials][scatter_glass]") {
+TEST_CASE("scatter_glass: frosted glass hides some of its microfacets, both ways", "[14-materials][scatter_glass]") {
     const auto lambda = [](float z) { return (std::sqrt(1.0F + 0.64F * (1.0F - z * z) / (z * z)) - 1.0F) / 2.0F; };
     const HitRecord hit = rough_hit(0.4F, 0.8F);
     int mirrored = 0;
@@ -423,7 +435,8 @@ TEST_CASE("frosted glass hides some of its microfacets, both ways", "[14-materia
     CHECK(refracted > 200);
 }
 
-TEST_CASE("frosted glass lets light out where clear glass keeps it in", "[14-materials][scatter_glass]") {
+TEST_CASE("scatter_glass: frosted glass lets light out where clear glass keeps it in",
+          "[14-materials][scatter_glass]") {
     HitRecord hit = rough_hit(0.7F, 0.4F);
     hit.front_face = false;
     constexpr int k_count = 2000;

@@ -1,11 +1,14 @@
 // Visible tests of step 15: two ways to the same light, how likely each was, and what each counts.
 #include "steps/15-mis/mis.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -16,7 +19,7 @@ using namespace raysteps::testing;
 
 namespace {
 
-constexpr float k_pi = 3.14159265F;
+constexpr float k_pi = std::numbers::pi_v<float>;
 const glm::vec3 k_up{0.0F, 0.0F, 1.0F};
 
 /// What one hit of a path is, and what is found there.
@@ -351,7 +354,7 @@ TEST_CASE("mis_path_light: the lamp's density is that of the hit before", "[15-m
         static_cast<void>(light_along(path));
         REQUIRE(path.hits.size() == bounces + 1);
         REQUIRE_FALSE(path.asked_from.empty());
-        INFO("light_pdf(from, hit): from is where the ray started that met the lamp");
+        INFO("light_pdf(from, hit): from is the position of the hit before the lamp");
         CHECK_THAT(path.asked_from.back(), IsNear(path.hits[bounces - 1].position, 5e-3F));
     }
     INFO("that ray is scattered_ray's: 0.001 off the surface, towards the normal");

@@ -36,10 +36,10 @@ Wire::Pipes take_pipes() {
 std::vector<Wire::ThreadMemory> memory_of_steps() {
     std::vector<Wire::ThreadMemory> found;
     const auto look = [](dl_phdr_info* library, std::size_t /*size*/, void* result) {
-        constexpr std::size_t k_most = std::size_t{64} << 10U;  // more would take longer than what it is for
+        constexpr std::size_t k_max_bytes = std::size_t{64} << 10U;  // more would take longer than what it is for
         for (const ElfW(Phdr) & part : std::span(library->dlpi_phdr, library->dlpi_phnum)) {
             const bool is_step = std::strstr(library->dlpi_name, "libstep-") != nullptr;
-            if (part.p_type != PT_TLS || !is_step || library->dlpi_tls_data == nullptr || part.p_memsz > k_most) {
+            if (part.p_type != PT_TLS || !is_step || library->dlpi_tls_data == nullptr || part.p_memsz > k_max_bytes) {
                 continue;
             }
             // NOLINTNEXTLINE(performance-no-int-to-ptr): where the loader has put it

@@ -13,7 +13,7 @@ namespace raysteps {
 namespace {
 
 constexpr int k_bins = 12;
-constexpr float k_most = std::numeric_limits<float>::infinity();
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
 
 struct Made {
     Box box;
@@ -29,7 +29,7 @@ std::size_t best_cut(const SurfaceList& list, int axis, const Box& whole) {
     const float low = middle_of(list.front(), axis);
     const float high = middle_of(list.back(), axis);
     std::size_t best = list.size() / 2;
-    float best_cost = k_most;
+    float best_cost = k_infinity;
     for (int bin = 1; bin < k_bins; ++bin) {
         const float plane = low + (high - low) * static_cast<float>(bin) / static_cast<float>(k_bins);
         Box left;
@@ -91,7 +91,7 @@ void write(const Made& made, Bvh& bvh, std::size_t at, float margin) {
 
 /// Where the ray enters the two children; infinity where it misses one, or enters it too late to matter.
 std::array<float, 2> entries(const Bvh& bvh, const BvhNode& node, const Ray& ray, float most) {
-    std::array<float, 2> found{k_most, k_most};
+    std::array<float, 2> found{k_infinity, k_infinity};
     for (std::uint32_t i = 0; i < 2; ++i) {
         const std::optional<Interval> part = bvh.nodes[node.first + i].box.hit(ray);
         if (part && part->enter <= most * (1.0F + 1e-5F)) {
@@ -142,11 +142,11 @@ std::optional<HitRecord> closest_hit_in_bvh(const Bvh& bvh, const Ray& ray) {
             const float most = closest ? closest->distance : std::numeric_limits<float>::max();
             const std::array<float, 2> entry = entries(bvh, node, ray, most);
             const std::uint32_t nearer = entry[1] < entry[0] ? 1 : 0;
-            if (entry[1 - nearer] < k_most) {
+            if (entry[1 - nearer] < k_infinity) {
                 open[size] = node.first + 1 - nearer;
                 enters[size++] = entry[1 - nearer];
             }
-            if (entry[nearer] < k_most) {
+            if (entry[nearer] < k_infinity) {
                 at = node.first + nearer;
                 continue;
             }
@@ -184,7 +184,7 @@ bool occluded_in_bvh(const Bvh& bvh, const Ray& ray, float distance) {
             const std::array<float, 2> entry = entries(bvh, node, ray, distance);
             const std::uint32_t nearer = entry[1] < entry[0] ? 1 : 0;
             for (const std::uint32_t child : {1 - nearer, nearer}) {
-                if (entry[child] < k_most) {
+                if (entry[child] < k_infinity) {
                     open[size++] = node.first + child;
                 }
             }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace raysteps {
 
@@ -69,6 +70,7 @@ Texture half_size(const Texture& texture) {
     const int width = (texture.width + 1) / 2;
     const int height = (texture.height + 1) / 2;
     std::vector<Color> texels;
+    texels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             Color sum = k_black;
@@ -82,7 +84,7 @@ Texture half_size(const Texture& texture) {
             texels.push_back(sum / static_cast<float>(amount));
         }
     }
-    return {width, height, texels};
+    return {width, height, std::move(texels)};
 }
 
 }  // namespace
