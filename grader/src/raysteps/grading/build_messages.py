@@ -193,9 +193,9 @@ def _other_words(errors: list[_Error]) -> str:
 def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     """One sentence, the place, the lines, and what else."""
     if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
-        return f"It does not build: the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
+        return f"{NOT_BUILT}the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
     if ran.stopped == "memory":
-        return "It does not build: the compiler needed more memory than it may have."
+        return f"{NOT_BUILT}the compiler needed more memory than it may have."
     output = printable((ran.outcome.stderr or ran.outcome.stdout)[:_MAX_READ])
     errors = _errors(output)
     own = [error for error in errors if error.file == step.file]
@@ -203,20 +203,20 @@ def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     for error in own or errors:
         place = f"{error.file}:{error.line}" + (f":{error.column}" if error.column else "")
         said = shorten(error.text, 300)
-        text = f"It does not build: {place}: {said}"
+        text = f"{NOT_BUILT}{place}: {said}"
         if own:
             text += f"\n{_context(source, error.line, error.column)}{_other_words(own)}{_more(own)}"
         return text
     if "File size limit exceeded" in output:
-        return "It does not build: what the compiler makes of it is larger than a file may be. Is there a huge array?"
+        return f"{NOT_BUILT}what the compiler makes of it is larger than a file may be. Is there a huge array?"
     if "relocation truncated to fit" in output:
-        return "It does not build: its variables take more than 2 GB. Is there a huge array?"
+        return f"{NOT_BUILT}its variables take more than 2 GB. Is there a huge array?"
     if is_of_a_linker(output):
         return link_message(ran)
     lines = [line for line in output.splitlines() if line.strip() and not _LAST_WORDS.search(line)]
     telling = [line for line in lines if re.search("error:|terminated|Error", line)]
     said = shorten(clean_log("".join(telling[-1:] or lines[:1])), 300)
-    return f"It does not build: {said}" if said else "It does not build: the compiler gave up and said nothing."
+    return f"{NOT_BUILT}{said}" if said else f"{NOT_BUILT}the compiler gave up and said nothing."
 
 
 # Names as a linker writes them, and as a header does. JavaScript reads these patterns, too.
@@ -279,25 +279,25 @@ def forbidden_message(step: Step, names: tuple[str, ...], owners: dict[str, tupl
     """A step that asks for what is not its own. `owners`: of functions of other steps, and how C++ writes these."""
     for name in names:
         if _of_counters(name):
-            return "It does not build: it reaches for the counters of the grader, which are none of its business."
+            return f"{NOT_BUILT}it reaches for the counters of the grader, which are none of its business."
         other, _ = owners.get(name, (step, ""))
         if other.index > step.index:
             return later_message(other)
         if other.index < step.index:
             mine = [owners[one][1] for one in names if one in owners and owners[one][0] == other]
             return barred_message(step, other.id, list(map(function_name, mine)))
-    return "It does not build: it calls a function of the kit that is not for the steps."
+    return f"{NOT_BUILT}it calls a function of the kit that is not for the steps."
 
 
 def later_message(other: Step) -> str:
     """A step that calls a function of this one."""
-    return f"It does not build: it calls a function of step {other.id}, which comes later."
+    return f"{NOT_BUILT}it calls a function of step {other.id}, which comes later."
 
 
 def barred_message(step: Step, other: str, functions: list[str]) -> str:
     """A step that calls these functions of another, earlier one, by its id, though its manifest bars them."""
     return (
-        f"It does not build: step {step.id} may not call {join_and(functions)} of step {other}, which "
+        f"{NOT_BUILT}step {step.id} may not call {join_and(functions)} of step {other}, which "
         f"{'do' if len(functions) > 1 else 'does'} what step {step.id} is about. Write it in {step.file} itself."
     )
 
@@ -328,7 +328,7 @@ def missing_message(names: tuple[str, ...]) -> str:
     """Functions that the contract asks for and the file lacks."""
     shown = join_and([name.replace("raysteps::", "") for name in names])
     which = "is missing. The file must define it" if len(names) == 1 else "are missing. The file must define them"
-    return f"It does not build: {shown} {which} exactly as the header declares."
+    return f"{NOT_BUILT}{shown} {which} exactly as the header declares."
 
 
 def missing_here(step: Step, names: tuple[str, ...], source: str) -> str:
@@ -349,7 +349,7 @@ def undefined_message(names: tuple[str, ...]) -> str:
     """A helper that was declared and forgotten, or has another signature where it is defined."""
     shown = join_and([shorten(name, 200) for name in names[:5]])
     are = "is" if len(names) == 1 else "are"
-    return f"It does not build: {shown} {are} called, but defined nowhere. Is the signature the same in both places?"
+    return f"{NOT_BUILT}{shown} {are} called, but defined nowhere. Is the signature the same in both places?"
 
 
 def bare_name(name: str) -> str:
@@ -366,7 +366,7 @@ def undefined_here(step: Step, names: tuple[str, ...], source: str) -> str:
 def twice_message(name: str) -> str:
     """A function that stands there twice."""
     return (
-        f"It does not build: {name} is defined twice. Where two files have a helper of one name, put each into an "
+        f"{NOT_BUILT}{name} is defined twice. Where two files have a helper of one name, put each into an "
         "unnamed namespace: namespace { ... }."
     )
 
@@ -388,16 +388,16 @@ def missing_name(output: str) -> tuple[str, str] | None:
 def link_message(ran: TaskResult) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
     if ran.outcome.timed_out:
-        return "It does not build: the linker took too long."
+        return f"{NOT_BUILT}the linker took too long."
     said = printable((ran.outcome.stderr + ran.outcome.stdout)[:_MAX_READ])  # Microsoft's linker complains on stdout
     missing, twice = _MISSING.search(said), _TWICE.search(said)
     if twice is not None:
         name = twice["name"] or twice["theirs"].partition(" already defined")[0]
         return twice_message(shorten(name, 200))
     if missing is None:
-        return "It does not build: the linker gave up."
+        return f"{NOT_BUILT}the linker gave up."
     name = shorten(missing["name"] or missing["other"], 200)
-    return f"It does not build: {name} is missing. The file must define it exactly as the header declares it."
+    return f"{NOT_BUILT}{name} is missing. The file must define it exactly as the header declares it."
 
 
 def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) -> str:
@@ -413,7 +413,7 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
     if compiled.barred:
         return barred_here(step, compiled.barred, source)
     if compiled.unreadable:
-        return "It does not build: its object holds more names than a step can have, or cannot be read."
+        return f"{NOT_BUILT}its object holds more names than a step can have, or cannot be read."
     if compiled.undefined:
         return undefined_here(step, compiled.undefined, source)
     if compiled.missing:
