@@ -20,9 +20,8 @@ from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
 from raysteps.progress import check, own_check
 from raysteps.report.attempts import read_attempts
-from raysteps.report.student import REPORT
 from raysteps.results.model import Diagnosis, Results, Termination, TestResult
-from raysteps.results.store import read_results
+from raysteps.results.store import REPORT, read_results
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import NOTHING_AHEAD

@@ -24,10 +24,10 @@ from raysteps.course.manifest import Step
 from raysteps.grading.withhold import withhold
 from raysteps.report import class_page as class_report
 from raysteps.report.class_page import write_class_report
-from raysteps.report.student import REPORT, try_student_page
+from raysteps.report.student import try_student_page
 from raysteps.results.class_model import ClassResults, GradedSubmission, Student
 from raysteps.results.model import Feedback, Results
-from raysteps.results.store import CASES_FOLDER, stored_results
+from raysteps.results.store import CASES_FOLDER, REPORT, stored_results
 
 # CSV that a spreadsheet shows and never runs.
 

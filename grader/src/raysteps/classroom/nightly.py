@@ -22,8 +22,8 @@ from raysteps.classroom.run_plan import Plan
 from raysteps.classroom.session import is_up_to_date, submission_key
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_if_changed
-from raysteps.report.student import REPORT
 from raysteps.results.model import Feedback
+from raysteps.results.store import REPORT
 
 # How many feedbacks a day has, and when it begins.
 

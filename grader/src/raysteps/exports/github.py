@@ -23,9 +23,10 @@ from raysteps.exports.items import (
     title,
 )
 from raysteps.grading.withhold import withhold
-from raysteps.report.student import REPORT, student_page
+from raysteps.report.student import student_page
 from raysteps.report.wording import review_lines, total_words
 from raysteps.results.model import Results, StepResult
+from raysteps.results.store import REPORT
 
 _FIELDS = {
     "classroom": "CLASSROOM",

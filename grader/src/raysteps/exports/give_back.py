@@ -17,9 +17,9 @@ from raysteps.common.text import clean, did_you_mean, join_and
 from raysteps.course.manifest import Step
 from raysteps.exports.autograders import Member, as_tar, as_zip
 from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, read_class, results_of
-from raysteps.report.student import REPORT
 from raysteps.results.class_model import ClassResults
 from raysteps.results.model import Results
+from raysteps.results.store import REPORT
 
 # Who gets what. Every way of giving back asks here, and nowhere else.
 

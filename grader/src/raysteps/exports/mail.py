@@ -25,9 +25,10 @@ from raysteps.exports.autograders import Member, as_zip
 from raysteps.exports.give_back import Deliveries, Delivery
 from raysteps.exports.items import one_line, title
 from raysteps.report.attempts import history_words
-from raysteps.report.student import REPORT, next_step, student_page
+from raysteps.report.student import next_step, student_page
 from raysteps.report.wording import hand_in_words, review_lines, total_words
 from raysteps.results.model import Results, StepResult
+from raysteps.results.store import REPORT
 
 # Addresses. A roster may hold anything: what is not one plain address is none.
 

@@ -17,9 +17,8 @@ from raysteps.grading.build_messages import link_message, why_not_built
 from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points, still_missing, test_weights
 from raysteps.grading.unit_tests import not_written_yet, run_tests
-from raysteps.report.student import REPORT
 from raysteps.results.model import Integration, StepResult
-from raysteps.results.store import CASES_FOLDER, case_path
+from raysteps.results.store import CASES_FOLDER, REPORT, case_path
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import (

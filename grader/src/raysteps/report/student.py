@@ -49,7 +49,7 @@ from raysteps.results.model import (
     TestResult,
     Total,
 )
-from raysteps.results.store import read_results
+from raysteps.results.store import REPORT, read_results
 
 # The pictures of a submission, as far as there is room for them in one page.
 
@@ -437,7 +437,6 @@ def step_view(
     }
 
 
-REPORT = "report.html"
 _NO_PROGRESS = OwnProgress()
 _MAX = 4_900_000  # bytes: a page that can be sent by mail
 _ROOM = 4_300_000  # of them for pictures, unless there is more text than usual

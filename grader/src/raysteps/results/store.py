@@ -8,6 +8,8 @@ from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.results.model import Results
 
+REPORT = "report.html"  # the page of a results.json, beside it
+
 
 def validate(results: Results) -> None:
     """A result that is not of the form of its class is the kit's fault."""
