@@ -119,7 +119,7 @@ def belongs_above(key: str) -> str:
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The same as the end of a sentence, or nothing."""
+    """`nearest` as the end of a sentence, or nothing."""
     name = nearest(word, known)
     return "" if name is None else f"; did you mean {name}?"
 

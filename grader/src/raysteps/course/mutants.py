@@ -44,7 +44,7 @@ class Mutant:
     find: str
     replace: str
     others: tuple[tuple[str, str], ...] = ()
-    entry: tuple[Path, int] | None = field(default=None, compare=False, repr=False)  # its file, and the which there
+    entry: tuple[Path, int] | None = field(default=None, compare=False, repr=False)  # its file, and which entry of it
 
     def choices(self) -> dict[str, "Mutant"]:
         """All forms of the mistake, the one of the catalogue first, each with a name of its own."""
