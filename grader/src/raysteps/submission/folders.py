@@ -51,13 +51,17 @@ def _read(folder: int, name: str) -> bytes:
     return data
 
 
-class FolderReader:
+class _Reader:
     """The entries of a folder, and the folders below it that could not be looked into."""
 
     def __init__(self, root: Path) -> None:
         self._root = root
         self._seen = 0
         self.closed: dict[tuple[str, ...], str] = {}  # and why
+
+
+class FolderReader(_Reader):
+    """Opens folders by the handle of the one above, so that none is another one meanwhile."""
 
     def entries(self) -> Iterator[FileEntry]:
         followed = _FOLDER & ~getattr(os, "O_NOFOLLOW", 0)  # the folder itself was named by whoever grades
@@ -129,13 +133,8 @@ def _is_link(child: "os.DirEntry[str]") -> bool:
     return child.is_symlink() or bool(is_junction is not None and is_junction())
 
 
-class PlainFolderReader:
-    """The entries of a folder, and the folders below it that could not be looked into."""
-
-    def __init__(self, root: Path) -> None:
-        self._root = root
-        self._seen = 0
-        self.closed: dict[tuple[str, ...], str] = {}  # and why
+class PlainFolderReader(_Reader):
+    """The same where a folder cannot be opened by a handle, as on Windows."""
 
     def entries(self) -> Iterator[FileEntry]:
         yield from self._below(self._root, ())
