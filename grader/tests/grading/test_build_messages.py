@@ -248,7 +248,7 @@ def test_a_place_beyond_the_source_is_no_trouble(shadows: Step) -> None:
 
 def test_a_missing_function_is_named() -> None:
     output = "/usr/bin/ld: tracer.cpp:(.text+0x1): undefined reference to `raysteps::shadow_ray(int)'\n"
-    assert link_message(ran(output)).startswith("It does not build: raysteps::shadow_ray(int) is missing.")
+    assert link_message(ran(output)).startswith("It does not build: shadow_ray(int) is missing.")
 
 
 @pytest.mark.parametrize(
@@ -282,14 +282,17 @@ def test_a_missing_function_is_told_as_the_header_has_it(shadows: Step, source: 
     [
         (
             'x.obj : error LNK2019: unresolved external symbol "bool __cdecl raysteps::f(int)" (?f) referenced',
-            "missing",
+            " f(int) is missing",
         ),
-        ('y.obj : error LNK2005: "int __cdecl raysteps::f(int)" (?f@@YA) already defined in x.obj', "defined twice"),
+        (
+            'y.obj : error LNK2005: "int __cdecl raysteps::f(int)" (?f@@YA) already defined in x.obj',
+            "raysteps::f(int) is defined twice",
+        ),
     ],
 )
 def test_microsofts_linker_is_understood(said: str, told: str) -> None:
     message = link_message(TaskResult(Outcome(1, False, said, "", 1.0), {}, 1.0, ""))
-    assert "raysteps::f(int) is " + told in message
+    assert told in message
 
 
 def test_a_step_that_reaches_for_what_is_not_its_own(steps: list[Step]) -> None:

@@ -193,7 +193,8 @@ def _other_words(errors: list[_Error]) -> str:
 def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     """One sentence, the place, the lines, and what else."""
     if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
-        return f"{NOT_BUILT}the compiler was stopped after {ran.outcome.seconds:.0f} s; such a file takes one."
+        seconds = f"{ran.outcome.seconds:.0f} s"
+        return f"{NOT_BUILT}the compiler was stopped after {seconds}; such a file takes about a second."
     if ran.stopped == "memory":
         return f"{NOT_BUILT}the compiler needed more memory than it may have."
     output = printable((ran.outcome.stderr or ran.outcome.stdout)[:_MAX_READ])
@@ -396,8 +397,7 @@ def link_message(ran: TaskResult) -> str:
         return twice_message(shorten(name, 200))
     if missing is None:
         return f"{NOT_BUILT}the linker gave up."
-    name = shorten(missing["name"] or missing["other"], 200)
-    return f"{NOT_BUILT}{name} is missing. The file must define it exactly as the header declares it."
+    return missing_message((shorten(missing["name"] or missing["other"], 200),))
 
 
 def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) -> str:
