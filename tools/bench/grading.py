@@ -252,8 +252,8 @@ def _watching(kit: Project, number: str) -> Iterator[Callable[[], None]]:
     ) as process:  # fmt: skip
         assert process.stdout is not None
         lines = process.stdout
-        patience = threading.Timer(_WAITS_SECONDS, process.terminate)
-        patience.start()
+        timeout = threading.Timer(_WAITS_SECONDS, process.terminate)
+        timeout.start()
 
         def wait() -> None:
             if not any(_SAID.match(line) for line in lines):
@@ -262,7 +262,7 @@ def _watching(kit: Project, number: str) -> Iterator[Callable[[], None]]:
         try:
             yield wait
         finally:
-            patience.cancel()
+            timeout.cancel()
             process.terminate()
 
 

@@ -193,8 +193,8 @@ class _Report:
     def __init__(self, database: ClassDatabase, known: Mapping[str, GradedSubmission]) -> None:
         self._known = known
         self._query = database.connection.execute
-        self._standings = CurrentResults(database)
-        self._last = self._standings.last
+        self._current_results = CurrentResults(database)
+        self._last = self._current_results.last
 
     def _run(self, row: sqlite3.Row) -> ClassRun:
         query = "SELECT status, count(*) AS amount FROM results WHERE run = ? GROUP BY status"
@@ -207,7 +207,7 @@ class _Report:
         known = {folded(name) for one in submissions for name in (one.name, one.entry, stem(one.entry))}
         for row in self._query("SELECT id, email FROM students"):
             known |= {folded(row["id"]), folded(row["email"])}
-        policy = self._standings.policy
+        policy = self._current_results.policy
         extensions = policy.extensions if policy is not None else {}
         return sorted(student for student in extensions if student not in known)
 
@@ -217,8 +217,8 @@ class _Report:
 
     def document(self) -> ClassResults:
         rows = self._query("SELECT * FROM submissions WHERE scope = 'here' ORDER BY name_order(name)").fetchall()
-        standings = self._standings
-        submissions = [self._known.get(row["name"]) or standings.of(row) for row in rows]
+        current_results = self._current_results
+        submissions = [self._known.get(row["name"]) or current_results.of(row) for row in rows]
         absent = self._query(
             "SELECT id, name, email, note FROM students WHERE number NOT IN (SELECT student FROM handed_in) "
             "ORDER BY name_order(id), name_order(name), email"
@@ -231,15 +231,17 @@ class _Report:
         finals = [one.final for one in submissions if one.status == "graded" and one.final is not None]
         return ClassResults(
             schema="raysteps/class/v1",
-            course=standings.course,
+            course=current_results.course,
             run=self._run(self._last),
-            runs=[self._run(row) for row in standings.all_runs],
-            steps=standings.steps,
+            runs=[self._run(row) for row in current_results.all_runs],
+            steps=current_results.steps,
             late_policy=self._last["late_policy"] or None,
             submissions=submissions,
             students_without_submission=[NotedStudent(**row) for row in absent],
             students_with_several=[NotedStudent(**row) for row in several],
-            submissions_without_student=[one.name for one in submissions if standings.has_roster and not one.students],
+            submissions_without_student=[
+                one.name for one in submissions if current_results.has_roster and not one.students
+            ],
             not_graded=[one.name for one in submissions if one.status == "not-graded"],
             faults=[one.name for one in submissions if one.status == "fault"],
             unreadable=[one.name for one in submissions if one.status == "unreadable"],

@@ -88,12 +88,12 @@ class FeedbackLog:
         )
         return Counter({row["student"]: row["amount"] for row in rows if row["student"] in students})
 
-    def add(self, look: "EntryDecision", run: int, said: str, now: datetime) -> None:
+    def add(self, decision: "EntryDecision", run: int, said: str, now: datetime) -> None:
         with transaction(self._connection):
             query = "SELECT id FROM submissions WHERE name = ?"
-            (submission,) = self._connection.execute(query, (look.name,)).fetchone()
-            row = {"submission": submission, "run": run, "work": look.work, "counts": look.counts, "said": said}
-            for student in look.students:
+            (submission,) = self._connection.execute(query, (decision.name,)).fetchone()
+            row = {"submission": submission, "run": run, "work": decision.work, "counts": decision.counts, "said": said}
+            for student in decision.students:
                 mine = {**row, "student": student, "given_at": stamp(now)}
                 insert(self._connection, "feedback_given", mine, "ON CONFLICT DO NOTHING")
 
@@ -206,17 +206,17 @@ class NightlyRound:
     @cached_property
     def decisions(self) -> list[EntryDecision]:
         """Those to be graded that took long the last time come last: nobody else waits for them."""
-        return sorted(map(self._look, self.plan.mine()), key=lambda look: look.seconds)
+        return sorted(map(self._look, self.plan.mine()), key=lambda decision: decision.seconds)
 
     @cached_property
     def left_out(self) -> set[str]:
         """Names of those that have an earlier result than what is there now."""
         return {
-            look.name
-            for look in self.decisions
-            if look.state in ("waiting", "changing")
-            and not look.is_graded
-            and self.database.current(look.name) is not None
+            decision.name
+            for decision in self.decisions
+            if decision.state in ("waiting", "changing")
+            and not decision.is_graded
+            and self.database.current(decision.name) is not None
         }
 
     def _look(self, entry: ClassEntry) -> EntryDecision:
@@ -271,24 +271,24 @@ class NightlyRound:
 
     def told(self, answer: JobResult) -> None:
         """A result is there: it is given at once."""
-        look = next(look for look in self.decisions if look.name == answer.name)
-        if answer.status == "graded" and look.state == "grade":
-            self.give(look)
+        decision = next(decision for decision in self.decisions if decision.name == answer.name)
+        if answer.status == "graded" and decision.state == "grade":
+            self.give(decision)
 
-    def give(self, look: EntryDecision) -> None:
+    def give(self, decision: EntryDecision) -> None:
         """The page is there before it counts: whoever is killed in between gives it again."""
-        said = last_said(self.database, look.name)
-        run = self._write_page(look.name)
+        said = last_said(self.database, decision.name)
+        run = self._write_page(decision.name)
         if run is None:
-            self.say(f"{look.name}: there is no page to give")
+            self.say(f"{decision.name}: there is no page to give")
             return
-        self.log.add(look, run, said, self.now)
-        self.given.append(look.name)
+        self.log.add(decision, run, said, self.now)
+        self.given.append(decision.name)
 
     def tell_again(self) -> None:
         """What people said of a result since its page was given takes no feedback. A result that is not given yet
         stays untold."""
-        for name in sorted(annotated(self.database) & {look.name for look in self.decisions if look.students}):
+        for name in sorted(annotated(self.database) & {one.name for one in self.decisions if one.students}):
             current, last, said = self.database.current(name), self.log.last(name), last_said(self.database, name)
             if current is None or last is None or last.run != current["run"] or last.said == said:
                 continue
@@ -298,11 +298,11 @@ class NightlyRound:
 
     def _write_page(self, name: str) -> int | None:
         """As the result that counts is now, with all that people said of it. Gives its run."""
-        standings = CurrentResults(self.database)
-        one = standings.named(name)
+        current_results = CurrentResults(self.database)
+        one = current_results.named(name)
         with tempfile.TemporaryDirectory(prefix="raysteps-class-") as place:
-            steps = steps_of(standings.steps)
-            write_submission(self.database, Path(place), one, standings.course, steps, self.feedback)
+            steps = steps_of(current_results.steps)
+            write_submission(self.database, Path(place), one, current_results.course, steps, self.feedback)
             page = Path(place) / SUBMISSIONS / name / REPORT
             if not page.is_file():
                 return None
@@ -311,31 +311,31 @@ class NightlyRound:
 
     def write_statuses(self) -> None:
         """Beside each page what may be expected next."""
-        for look in self.decisions:
-            if look.students:
-                write_if_changed(self.folder / look.name / STATUS, self._words(look).encode())
+        for decision in self.decisions:
+            if decision.students:
+                write_if_changed(self.folder / decision.name / STATUS, self._words(decision).encode())
 
-    def _words(self, look: EntryDecision) -> str:
-        last = self.log.last(look.name)
-        used = max(self.log.used(look.students, self.allowance.day_began(self.now)).values(), default=0)
+    def _words(self, decision: EntryDecision) -> str:
+        last = self.log.last(decision.name)
+        used = max(self.log.used(decision.students, self.allowance.day_began(self.now)).values(), default=0)
         most, later = self.allowance.per_day, shown(self.allowance.next_day(self.now))
         lines = []
         if last is not None:
             lines.append(f"{REPORT} tells of what was there on {shown(last.at.astimezone(self.allowance.zone))}.")
         lines.append(f"Feedback today: {used} of {most}.")
-        current = self.database.current(look.name)
-        failed = look.state == "failed" or (
-            look.state == "grade"
-            and look.name not in self.given
+        current = self.database.current(decision.name)
+        failed = decision.state == "failed" or (
+            decision.state == "grade"
+            and decision.name not in self.given
             and current is not None
             and current["status"] == "fault"
         )
-        if look.state == "waiting":
+        if decision.state == "waiting":
             lines.append(
                 f"Something was changed since. It is graded from {later} on, as it is then: what lies between is not "
                 "looked at."
             )
-        elif look.state == "changing":
+        elif decision.state == "changing":
             lines.append("Something is being uploaded. It is graded when it stays the same from one look to the next.")
         elif failed:
             lines.append(

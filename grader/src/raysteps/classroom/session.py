@@ -121,7 +121,7 @@ class Session:
     _pending: dict[str, _Pending] = field(default_factory=dict)
 
     @cached_property
-    def _standings(self) -> CurrentResults:
+    def _current_results(self) -> CurrentResults:
         """By the roster and the late policy of this run."""
         return CurrentResults(self.database)
 
@@ -166,9 +166,9 @@ class Session:
             if not self.recorded:
                 withdraw_tables(self.plan.options.out)
             self.recorded.add(answer.name)
-            one = self._standings.named(answer.name)
+            one = self._current_results.named(answer.name)
             write_submission(
-                self.database, self.plan.options.out, one, self._standings.course, self._standings.manifests
+                self.database, self.plan.options.out, one, self._current_results.course, self._current_results.manifests
             )
             total = answer.results.total if answer.results is not None else None
             points = total_words(total) if total else f"FAULT: {first_line(answer.fault)}"

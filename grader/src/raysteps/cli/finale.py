@@ -108,25 +108,27 @@ def _new_scene(project: Project, path: Path, console: Console) -> int:
     return 0
 
 
-def _reach(project: Project, impl: str, *, part_two: bool) -> AvailableSteps:
+def _available_to(project: Project, impl: str, *, part_two: bool) -> AvailableSteps:
     steps = read_steps(project)
     mine = impl == "mine"
     left = {step.id for upto in steps for step, _ in unfinished(project, upto.index)} if mine else set()
-    reach = available_steps(steps, {step.id for step in steps} - left, part_two=part_two)
-    if not any(not step.is_about_a_tree for step in reach.drawn):
+    available = available_steps(steps, {step.id for step in steps} - left, part_two=part_two)
+    if not any(not step.is_about_a_tree for step in available.drawn):
         first = steps[0]
         raise UsageError(
             f"step {first.number} is not written yet, and without it there is no picture: expected its functions in "
             f"steps/{first.path.as_posix()}; {own_command()} watch {first.number}"
         )
-    if part_two and not any(step.is_in_part_two for step in reach.drawn):
+    if part_two and not any(step.is_in_part_two for step in available.drawn):
         raise UsageError("a scene that ends in .pbrt is for part two: expected step 10, and all before it")
-    return reach
+    return available
 
 
-def _notes(project: Project, reach: AvailableSteps, impl: str) -> dict[str, str]:
+def _notes(project: Project, available: AvailableSteps, impl: str) -> dict[str, str]:
     """By step: what keeps it from being done."""
-    notes = {step.id: f"Still to be written. {own_command()} watch {step.number} begins it." for step in reach.missing}
+    notes = {
+        step.id: f"Still to be written. {own_command()} watch {step.number} begins it." for step in available.missing
+    }
     if impl == "mine":
         for standing in standings(project):
             if not standing.is_done and standing.step.id not in notes:
@@ -154,31 +156,31 @@ def _say_more(said: Sequence[str], console: Console) -> None:
 
 def _stations(
     own: OwnProgram,
-    reach: AvailableSteps,
+    available: AvailableSteps,
     steps: Sequence[Step],
     shape: tuple[int, ...],
     notes: dict[str, str],
     console: Console,
 ) -> list[Station]:
     found = []
-    for step in filter(reach.shows, steps):
+    for step in filter(available.shows, steps):
         pixels = None
-        if step in reach.drawn:
+        if step in available.drawn:
             console.print(f"step {step.number}: {step.title}", style="dim", markup=False, highlight=False)
-            pixels = own.small(reach, step, shape)
+            pixels = own.small(available, step, shape)
         note = notes.get(step.id, "")
-        if reach.part_two and pixels is not None and not pixels.any():
+        if available.part_two and pixels is not None and not pixels.any():
             pixels, note = None, f"{_BLACK} {note}".rstrip()
         found.append(Station(step, pixels, note))
     return found
 
 
-def _say_first(reach: AvailableSteps, impl: str, scene: str, samples: int, console: Console) -> None:
-    missing = [f"{step.number} {step.title}{' (bonus)' if step.bonus else ''}" for step in reach.missing]
+def _say_first(available: AvailableSteps, impl: str, scene: str, samples: int, console: Console) -> None:
+    missing = [f"{step.number} {step.title}{' (bonus)' if step.bonus else ''}" for step in available.missing]
     it = "it" if len(missing) == 1 else "them"
     said = [f"not written yet, so without {it}: {join_and(missing)}"] if missing else []
-    if reach.tree == "none":
-        tree = next((step for step in reach.missing if step.is_about_a_tree), None)
+    if available.tree == "none":
+        tree = next((step for step in available.missing if step.is_about_a_tree), None)
         without = "" if tree is None else f"without step {tree.number} "
         said.append(f"{without}every ray asks every surface, which takes long")
     whose = "your program" if impl == "mine" else "the reference's program"
@@ -187,21 +189,26 @@ def _say_first(reach: AvailableSteps, impl: str, scene: str, samples: int, conso
 
 
 def _make(
-    project: Project, arguments: argparse.Namespace, own: OwnProgram, reach: AvailableSteps, out: Path, console: Console
+    project: Project,
+    arguments: argparse.Namespace,
+    own: OwnProgram,
+    available: AvailableSteps,
+    out: Path,
+    console: Console,
 ) -> None:
     ours = arguments.scene is None
-    usual = _NOISY_SAMPLES if reach.part_two else _SAMPLES if reach.tree != "none" else _FEW_SAMPLES
+    usual = _NOISY_SAMPLES if available.part_two else _SAMPLES if available.tree != "none" else _FEW_SAMPLES
     samples = arguments.samples or usual
-    size = arguments.size or ((_SIZE if reach.tree != "none" else _SMALL_SIZE) if ours else None)
-    _say_first(reach, arguments.impl, short_path(Path(own.scene)), samples, console)
-    large = own.large(reach, size, samples, denoise=arguments.denoise)
-    notes = _notes(project, reach, arguments.impl)
-    stations = _stations(own, reach, read_steps(project), large.pixels.shape, notes, console)
-    counted = own.counted(reach, large)
+    size = arguments.size or ((_SIZE if available.tree != "none" else _SMALL_SIZE) if ours else None)
+    _say_first(available, arguments.impl, short_path(Path(own.scene)), samples, console)
+    large = own.large(available, size, samples, denoise=arguments.denoise)
+    notes = _notes(project, available, arguments.impl)
+    stations = _stations(own, available, read_steps(project), large.pixels.shape, notes, console)
+    counted = own.counted(available, large)
     title = arguments.title or (
         _TITLE if ours else clean(Path(own.scene).stem.replace("-", " ")).capitalize() or "Scene"
     )
-    steps = count(len(reach.drawn), "step")
+    steps = count(len(available.drawn), "step")
     words = (
         f"Ray traced by {'a program of my own' if arguments.impl == 'mine' else 'the reference'}, written in {steps}"
     )
@@ -247,13 +254,13 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         _check_resolution(scene)
     out: Path = arguments.out or project.build / "finale"
     usable_folder(out)
-    reach = _reach(project, arguments.impl, part_two=part_two)
+    available = _available_to(project, arguments.impl, part_two=part_two)
     program = build_program(release_tree(project), "raytrace", arguments.impl)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         threads = () if arguments.threads is None else ("--threads", arguments.threads)
         own = OwnProgram(partial(run_raytrace, program), scene, Path(folder), threads)
         try:
-            _make(project, arguments, own, reach, out, console)
+            _make(project, arguments, own, available, out, console)
         except RenderFailed as stopped:
             if stopped.code != _BAD_SCENE:
                 _say_more([f"raysteps: no finale without {stopped}"], console)

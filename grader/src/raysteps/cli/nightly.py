@@ -145,66 +145,68 @@ class _Night:
         registered = plan.registered(database.names())
         names = {row.entry: row.name for row in registered}
         allowance = Allowance(self.per_day, self._zone_of(plan))
-        look = NightlyRound(
+        nightly_round = NightlyRound(
             *(plan, grader.fingerprint, database, names, allowance, self.clock(), before, self.give),
             *(self.options.feedback, self._print),
         )
-        for one in look.decisions:
+        for one in nightly_round.decisions:
             if one.state == "give":
-                look.give(one)
-        due = [one for one in look.decisions if one.state == "grade"]
-        complete, failed = True, [one.name for one in look.decisions if one.state == "failed"]
+                nightly_round.give(one)
+        due = [one for one in nightly_round.decisions if one.state == "grade"]
+        complete, failed = True, [one.name for one in nightly_round.decisions if one.state == "failed"]
         if due or _is_unfinished(database, self.options.out):
-            run = database.begin_run(plan.facts(grader.fingerprint), registered, plan.registrations(), look.left_out)
+            run = database.begin_run(
+                plan.facts(grader.fingerprint), registered, plan.registrations(), nightly_round.left_out
+            )
             meter = ProgressMeter(self.console, len(due))
             session = Session(
                 *(plan, grader.fingerprint, database, meter, run, names),
                 learn=lambda: grader.learn([step.id for step in plan.chosen], meter.say),
                 entries=[one.entry for one in due],
-                is_whole=look.is_settled,
-                told=look.told,
+                is_whole=nightly_round.is_settled,
+                told=nightly_round.told,
             )
             with meter:
                 complete = session.grade(LocalPool(self.options.jobs))
             skipped = {one.name for one in due} - session.recorded - set(session.reused)
-            database.leave_out(look.left_out | skipped, skipped)
+            database.leave_out(nightly_round.left_out | skipped, skipped)
             failed = write_class(database, self.options.out, session.recorded).faults
         else:
-            self._write_what_changed(look, database)
-        look.tell_again()
-        look.write_statuses()
-        self._tell(look, allowance, failed)
+            self._write_what_changed(nightly_round, database)
+        nightly_round.tell_again()
+        nightly_round.write_statuses()
+        self._tell(nightly_round, allowance, failed)
         return 130 if not complete else GraderFault.exit_code if failed else 0
 
-    def _write_what_changed(self, look: NightlyRound, database: ClassDatabase) -> None:
+    def _write_what_changed(self, nightly_round: NightlyRound, database: ClassDatabase) -> None:
         """After a look that graded nothing: who waits now, and what was said at a desk that could not write it."""
-        is_new = look.left_out != database.left_out()
+        is_new = nightly_round.left_out != database.left_out()
         if is_new:
             withdraw_tables(self.options.out)  # whoever is killed in between writes them anew
-            database.leave_out(look.left_out)
+            database.leave_out(nightly_round.left_out)
         if is_new or is_unwritten(database.connection):
             write_class(database, self.options.out, database.names().values())
 
-    def _tell(self, look: NightlyRound, allowance: Allowance, failed: list[str]) -> None:
+    def _tell(self, nightly_round: NightlyRound, allowance: Allowance, failed: list[str]) -> None:
         """One line for each look that found something else than the one before."""
-        parts = [f"{count(len(look.given), 'feedback')} given"]
-        later = shown(allowance.next_day(look.now))
+        parts = [f"{count(len(nightly_round.given), 'feedback')} given"]
+        later = shown(allowance.next_day(nightly_round.now))
         for what, names in (
-            (f"waiting until {later}", _named(look.decisions, "waiting")),
-            ("still being uploaded", _named(look.decisions, "changing")),
-            ("of nobody on the roster", _named(look.decisions, "nobody")),
+            (f"waiting until {later}", _named(nightly_round.decisions, "waiting")),
+            ("still being uploaded", _named(nightly_round.decisions, "changing")),
+            ("of nobody on the roster", _named(nightly_round.decisions, "nobody")),
             ("the grader failed", failed),
-            ("with new comments or points", sorted(look.told_again, key=name_order)),
+            ("with new comments or points", sorted(nightly_round.told_again, key=name_order)),
         ):
             parts += [f"{what}: {', '.join(names)}"] if names else []
         line = "; ".join(parts)
-        if look.given or look.told_again or line != self._line:
-            self._print(f"{shown(look.now.astimezone(allowance.zone))}  {line}")
+        if nightly_round.given or nightly_round.told_again or line != self._line:
+            self._print(f"{shown(nightly_round.now.astimezone(allowance.zone))}  {line}")
         self._line = line
 
 
-def _named(looks: list[EntryDecision], state: str) -> list[str]:
-    return sorted((look.name for look in looks if look.state == state), key=name_order)
+def _named(decisions: list[EntryDecision], state: str) -> list[str]:
+    return sorted((decision.name for decision in decisions if decision.state == state), key=name_order)
 
 
 def _is_unfinished(database: ClassDatabase, out: Path) -> bool:

@@ -277,8 +277,8 @@ def _print(
         )
     console.print(table)
     console.print(
-        f"{count(compared.look, 'pair')} of {compared.amount} from likeness {_rank(REVIEW_THRESHOLD)} on, which is "
-        f"worth a look; half of all have {math.ceil(100 * compared.median)} at most. Likeness is from 0 to 100, and "
+        f"{count(compared.to_review, 'pair')} of {compared.amount} from likeness {_rank(REVIEW_THRESHOLD)} on, which "
+        f"is worth a look; half of all have {math.ceil(100 * compared.median)} at most. Likeness is from 0 to 100, and "
         "less where there is little code; the shares are per cent of one's own code.",
         highlight=False,
     )

@@ -132,7 +132,7 @@ class Desk:
         self._author = author
         self._rows: dict[str, tuple[tuple[int, int], Row]] = {}
         self._mistakes: dict[tuple[str, str], int] = {}
-        self._standings: CurrentResults | None = None
+        self._current_results: CurrentResults | None = None
         self._run: tuple[Any, ...] = ()
         check_folder(out)
         with explained_sqlite_errors(out / FILE, "used"):
@@ -165,20 +165,20 @@ class Desk:
     def _current(self) -> CurrentResults:
         """Made anew when a run has begun or ended: roster and late policy may be others."""
         run = tuple(self._query("SELECT number, state FROM runs ORDER BY number DESC LIMIT 1")[0])
-        if self._standings is None or run != self._run:
-            self._standings, self._run = CurrentResults(self._database), run
+        if self._current_results is None or run != self._run:
+            self._current_results, self._run = CurrentResults(self._database), run
             self._rows.clear()
-        return self._standings
+        return self._current_results
 
     def _read_class_json(self) -> None:
         """The rows of a class whose files are as new as its database: to read all results again takes longer."""
-        standings = self._current()
+        current_results = self._current()
         stamps = self._stamps()
         connection = self._database.connection
         if written_serial(connection) != latest_serial(connection):
             return
         for name, one in submissions_if_current(
-            self._database, self._out / CLASS_JSON, standings.last["number"]
+            self._database, self._out / CLASS_JSON, current_results.last["number"]
         ).items():
             if name in stamps and one.run == (stamps[name][0] or None):
                 self._keep(one, stamps[name])
@@ -187,8 +187,8 @@ class Desk:
         for step, titles in one.mistakes.items():
             for title in titles:
                 self._mistakes.setdefault((step, title), len(self._mistakes))
-        standings = self._current()
-        row = _row(one, [step.id for step in standings.steps], self._mistakes, standings.has_roster)
+        current_results = self._current()
+        row = _row(one, [step.id for step in current_results.steps], self._mistakes, current_results.has_roster)
         self._rows[one.name] = (stamp, row)
         return row
 
@@ -203,18 +203,18 @@ class Desk:
     def overview(self) -> View:
         """The whole table."""
         with self._lock:
-            standings = self._current()
+            current_results = self._current()
             rows = [self._row_of(name, stamp) for name, stamp in self._stamps().items()]
             return {
-                "course": standings.course,
+                "course": current_results.course,
                 "out": str(self._out),
                 "author": self._author,
                 "steps": [
                     {"id": step.id, "number": step.id[:2], "title": step.title, "points": step.points}
-                    for step in standings.steps
+                    for step in current_results.steps
                 ],
                 "statuses": STATUSES,
-                "late": standings.policy is not None,
+                "late": current_results.policy is not None,
                 "mistakes": [{"step": step, "title": title} for step, title in self._mistakes],
                 "letters": plain_letters(),
                 "rows": rows,

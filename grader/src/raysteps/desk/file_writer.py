@@ -110,13 +110,15 @@ class FileWriter:
         serial, before = latest_serial(database.connection), written_serial(database.connection)
         if serial == before:
             return
-        standings = CurrentResults(database)
+        current_results = CurrentResults(database)
         changed = annotated(database, since=before)
         for name in sorted(changed):
-            write_submission(database, self._out, standings.named(name), standings.course, standings.manifests)
+            write_submission(
+                database, self._out, current_results.named(name), current_results.course, current_results.manifests
+            )
         with self._changed:
             is_busy = self._is_due  # then the tables would be old at once
         if not is_busy:
-            kept = submissions_if_current(database, self._out / CLASS_JSON, standings.last["number"])
+            kept = submissions_if_current(database, self._out / CLASS_JSON, current_results.last["number"])
             known = {name: one for name, one in kept.items() if name not in changed}
             write_tables(database, self._out, class_document(database, known), serial)

@@ -270,7 +270,7 @@ class Comparison:
     median: float
     nine_in_ten: float  # are below
     amount: int  # of pairs in all
-    look: int  # of pairs that are worth a look
+    to_review: int  # of pairs that are worth a look
 
 
 class _Table:

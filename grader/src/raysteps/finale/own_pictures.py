@@ -129,11 +129,13 @@ class OwnProgram:
     def _counters(self) -> Path:
         return self.folder / "stats.json"
 
-    def large(self, reach: AvailableSteps, size: str | None, samples: int, *, denoise: bool = False) -> LargePicture:
+    def large(
+        self, available: AvailableSteps, size: str | None, samples: int, *, denoise: bool = False
+    ) -> LargePicture:
         """Without a size it is the scene's own."""
         estimates = self.folder / "estimates"
         sized = () if size is None else ("--size", size)
-        words = ("--step", str(reach.last), "--accel", reach.tree, "--samples", str(samples), *sized)
+        words = ("--step", str(available.last), "--accel", available.tree, "--samples", str(samples), *sized)
         words += ("--estimates", str(estimates)) if denoise else ()
         path = self._draw("the large picture", *words, "--stats", str(self._counters()))
         rays = {name: int(self._told(kind)) for kind, name in _SECONDARY.items()}
@@ -152,23 +154,23 @@ class OwnProgram:
         found = re.search(rf'"{name}": *([0-9]{{1,18}}(\.[0-9]+)?)'.encode(), self._counters().read_bytes())
         return float(found[1]) if found else 0.0
 
-    def small(self, reach: AvailableSteps, step: Step, shape: tuple[int, ...]) -> Pixels:
+    def small(self, available: AvailableSteps, step: Step, shape: tuple[int, ...]) -> Pixels:
         """As the steps up to this one see the scene; `shape` is that of the large picture."""
         size = _size(_SMALL, shape)
-        at = str(min(step.index, reach.last) if step.is_about_a_tree else step.index)
+        at = str(min(step.index, available.last) if step.is_about_a_tree else step.index)
         view = ("--view", "normals") if step.index == 2 else ()
-        samples = _SMALL_NOISY if reach.part_two else _SMALL_SAMPLES
-        words = ("--step", at, *view, "--accel", reach.accel_of(step), "--samples", samples, "--size", size)
+        samples = _SMALL_NOISY if available.part_two else _SMALL_SAMPLES
+        words = ("--step", at, *view, "--accel", available.accel_of(step), "--samples", samples, "--size", size)
         return read_png(self._draw(f"the picture of step {step.number}", *words, "--quiet"))
 
-    def counted(self, reach: AvailableSteps, large: LargePicture) -> list[CountedPicture]:
+    def counted(self, available: AvailableSteps, large: LargePicture) -> list[CountedPicture]:
         """Every surface for every ray, then with each tree. Nothing where there is no tree, or too much to test."""
-        if not reach.trees or large.surfaces > _LARGEST_COUNTED:
+        if not available.trees or large.surfaces > _LARGEST_COUNTED:
             return []
         size = _size(_COUNTED, large.pixels.shape)
         found = []
-        for accel, name in {"none": "every surface", **reach.trees}.items():
-            words = ("--step", str(reach.last), "--accel", accel, "--samples", "1", "--size", size)
+        for accel, name in {"none": "every surface", **available.trees}.items():
+            words = ("--step", str(available.last), "--accel", accel, "--samples", "1", "--size", size)
             stats = ("--stats", str(self._counters()))
             self._draw(f"the picture that is counted ({name})", *words, *stats, "--quiet")
             found.append(CountedPicture(name, self._work()))

@@ -192,10 +192,10 @@ class RaySegments:
     rays: tuple[RaySegment, ...]
 
     def numbers(self) -> list[Number]:
-        return [len(self.rays), *(number for reach in self.rays for number in reach.numbers())]
+        return [len(self.rays), *(number for segment in self.rays for number in segment.numbers())]
 
     def words(self) -> str:
-        return "; ".join(reach.words() for reach in self.rays[:2]) + ("; and more" if len(self.rays) > 2 else "")
+        return "; ".join(segment.words() for segment in self.rays[:2]) + ("; and more" if len(self.rays) > 2 else "")
 
 
 def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int]) -> str:
