@@ -119,26 +119,26 @@ def may_carry_data(kit: BuiltKit) -> bool:
     return kit.boxed and kit.has_reference
 
 
-def grade_image(gallery: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
+def grade_image(image_grader: ImageGrader, program: Program, step: Step, case: ImageCase) -> ImageResult:
     """One picture, with copies of mine, reference and difference as PNG."""
-    scene = gallery.kit.project.root / case.scene
-    reference = shown_reference(gallery.kit, scene, case)
-    rendered = gallery.render(program, scene, gallery.args_of(case), noisy=case.is_noisy)
+    scene = image_grader.kit.project.root / case.scene
+    reference = shown_reference(image_grader.kit, scene, case)
+    rendered = image_grader.render(program, scene, image_grader.args_of(case), noisy=case.is_noisy)
     result = ImageResult(case.name, case.scene, False, case.max_wrong, max_share=case.max_share, noisy=case.is_noisy)
     result.seconds = round(rendered.ran.outcome.seconds, 2)
     folder = Path("pictures") / step.id
     result.reference = (folder / f"{case.name}-reference.png").as_posix()
-    write_png(reference, gallery.out / result.reference)
+    write_png(reference, image_grader.out / result.reference)
     if rendered.pixels is None:
         result.outcome, result.message = trouble(rendered)
         return result
-    gallery.made[case.name] = rendered.pixels
-    verdict = judge_picture(gallery.kit, scene, case, rendered)
-    if not (verdict.passed or gallery.kit.has_reference) and case.has_tree:
-        verdict = _beside_no_tree(gallery, program, scene, case, rendered.pixels) or verdict
+    image_grader.made[case.name] = rendered.pixels
+    verdict = judge_picture(image_grader.kit, scene, case, rendered)
+    if not (verdict.passed or image_grader.kit.has_reference) and case.has_tree:
+        verdict = _beside_no_tree(image_grader, program, scene, case, rendered.pixels) or verdict
     result.passed, result.wrong_share, result.message = verdict.passed, round(verdict.wrong_share, 6), verdict.message
     if case.max_share is not None:
-        result.work, result.reference_work = rendered.work, reference_work(gallery.kit, scene, case.args)
+        result.work, result.reference_work = rendered.work, reference_work(image_grader.kit, scene, case.args)
         result.share_tested = None if rendered.share_tested is None else round(rendered.share_tested, 6)
         problem = too_many_tests(rendered.share_tested, case.max_share)
         if result.passed and problem:
@@ -147,7 +147,7 @@ def grade_image(gallery: ImageGrader, program: Program, step: Step, case: ImageC
     result.share = 1.0
     if not result.passed:
         result.share = image_credit(
-            gallery.kit,
+            image_grader.kit,
             step,
             scene,
             case,
@@ -157,12 +157,12 @@ def grade_image(gallery: ImageGrader, program: Program, step: Step, case: ImageC
         )
     if rendered.pixels.shape == reference.shape:
         mine = rendered.pixels
-        if not case.is_noisy and may_carry_data(gallery.kit):
+        if not case.is_noisy and may_carry_data(image_grader.kit):
             mine = reduced_picture(mine, reference, result.wrong_share)
         result.mine = (folder / f"{case.name}-mine.png").as_posix()
-        write_png(mine, gallery.out / result.mine)
+        write_png(mine, image_grader.out / result.mine)
         result.difference = (folder / f"{case.name}-difference.png").as_posix()
-        write_png(_difference(verdict, mine, reference), gallery.out / result.difference)
+        write_png(_difference(verdict, mine, reference), image_grader.out / result.difference)
     return result
 
 
@@ -175,12 +175,12 @@ def _difference(verdict: Comparison, mine: Pixels, reference: Pixels) -> Pixels:
 
 
 def _beside_no_tree(
-    gallery: ImageGrader, program: Program, scene: Path, case: ImageCase, pixels: Pixels
+    image_grader: ImageGrader, program: Program, scene: Path, case: ImageCase, pixels: Pixels
 ) -> Comparison | None:
     """A tree must change no pixel. So where earlier steps are the student's, too, a picture is right if it is the one
     that the same program draws without a tree; none where it is not, or shows nothing."""
     at = case.args.index(_TREE) + 1
-    plain = gallery.render(program, scene, (*case.args[:at], _NO_TREE, *case.args[at + 1 :])).pixels
+    plain = image_grader.render(program, scene, (*case.args[:at], _NO_TREE, *case.args[at + 1 :])).pixels
     if plain is None or is_flat(pixels):
         return None
     verdict = compare(pixels, plain, case.max_wrong)
@@ -189,18 +189,18 @@ def _beside_no_tree(
 
 
 def grade_integration(
-    gallery: ImageGrader, program: Program, step: Step, own: Sequence[Step], replaced: Mapping[str, Sequence[str]]
+    image_grader: ImageGrader, program: Program, step: Step, own: Sequence[Step], replaced: Mapping[str, Sequence[str]]
 ) -> Integration:
     """The step's first picture with the student's steps up to this one, `own`; `replaced` are the reference's among
     them, by why they are. Each step may differ by as much as its own pictures may, and in one picture the differences
     add up."""
     case = step.images[0]
-    scene = gallery.kit.project.root / case.scene
-    rendered = gallery.render(program, scene, case.args, noisy=case.is_noisy)
+    scene = image_grader.kit.project.root / case.scene
+    rendered = image_grader.render(program, scene, case.args, noisy=case.is_noisy)
     if rendered.pixels is None:
         return Integration(False, f"{case.name}: {trouble(rendered)[1]}")
     most_wrong = sum(max(image.max_wrong for image in other.images) for other in own)
-    verdict = judge_picture(gallery.kit, scene, replace(case, max_wrong=most_wrong), rendered)
+    verdict = judge_picture(image_grader.kit, scene, replace(case, max_wrong=most_wrong), rendered)
     if not verdict.passed:
         return Integration(False, f"{case.name}: {verdict.message}")
     whom = [f"{join_and(steps)}, which {why}" for why, steps in replaced.items() if steps]

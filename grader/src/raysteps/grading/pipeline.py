@@ -120,20 +120,20 @@ class HiddenStepGrader(StepGrader):
             completed = None if binary is None else self._completed(binary)
             unseen = () if plan is None else hidden_scenes(kit.project, step, plan, self._settings.seed)
             draw = partial(self._draw, programs["raytrace"], unseen)
-            early = self._spare.start(partial(draw, self._gallery))
+            early = self._spare.start(partial(draw, self._image_grader))
             self._run_tests(programs["test"])
             if completed is not None:
                 self._run_tests_again(completed["test"])
             early = self._drawn_again(draw, early)
             if early is None:
-                result.images, scenes = draw(self._gallery)
+                result.images, scenes = draw(self._image_grader)
             if plan is not None and binary is not None:
                 limits = limits_after(result.tests, self._limits)  # a picture that hangs takes no time from functions
                 result.hidden = self._asking(plan, programs["worker"], completed, limits)()
                 self._ask_apart(binary, plan, limits)
                 self._weigh_tests()
             if early is not None:
-                result.images, scenes = draw(self._gallery) if early.cancel() else early.result()
+                result.images, scenes = draw(self._image_grader) if early.cancel() else early.result()
             not_spared = unspared(result.images, result.hidden)
             revoke_tree_points(result.images, result.hidden)
             spares = not why_unspared(result.hidden)
@@ -169,24 +169,24 @@ class HiddenStepGrader(StepGrader):
         )
 
     def _draw(
-        self, program: Program, unseen: Sequence[HiddenScene], gallery: ImageGrader
+        self, program: Program, unseen: Sequence[HiddenScene], image_grader: ImageGrader
     ) -> tuple[list[ImageResult], list[_RenderedScene]]:
         """The step's pictures, and those of scenes that nobody has seen. These have files whose names say nothing."""
         images, scenes = [], []
         for case in self.step.images:
-            images.append(grade_image(gallery, program, self.step, case))
+            images.append(grade_image(image_grader, program, self.step, case))
         for scene in unseen:
             nff = scene.nff.encode()
             path = self._work.folder / self.step.number / f"{hashlib.sha256(nff).hexdigest()[:16]}.nff"
             write_bytes(path, nff)
-            rendered = gallery.render(program, path, scene.args, noisy=scene.max_noise is not None)
+            rendered = image_grader.render(program, path, scene.args, noisy=scene.max_noise is not None)
             scenes.append(_RenderedScene(scene, path, rendered))
         return images, scenes
 
     def _judge_scene(self, made: _RenderedScene, not_spared: str, *, spares: bool) -> HiddenResult:
         """`not_spared`: why few tests earn nothing; `spares`: whether a picture that does not pass earns something all
         the same."""
-        gallery, step = self._gallery, self.step
+        image_grader, step = self._image_grader, self.step
         scene, path, rendered = made.scene, made.path, made.rendered
         result = HiddenResult(scene.name, "picture", 0.0, weight=scene.weight)
         result.seconds = round(rendered.ran.outcome.seconds, 2)
@@ -195,7 +195,7 @@ class HiddenStepGrader(StepGrader):
             return result
         # Each seed has a picture of its own, so that the reference's must not take long.
         gate = PictureCriteria(scene.args, scene.max_wrong, scene.max_noise, more_samples=4)
-        verdict = judge_picture(gallery.kit, path, gate, rendered)
+        verdict = judge_picture(image_grader.kit, path, gate, rendered)
         problem = verdict.message
         if verdict.passed and scene.max_share is not None:
             problem = too_many_tests(rendered.share_tested, scene.max_share) or not_spared
@@ -207,7 +207,7 @@ class HiddenStepGrader(StepGrader):
         result.outcome = "wrong"
         if spares or scene.max_share is None:
             result.share = image_credit(
-                gallery.kit,
+                image_grader.kit,
                 step,
                 path,
                 gate,
@@ -293,7 +293,7 @@ class HiddenStepGrader(StepGrader):
             if again.share > item.share:
                 better[item.name] = again
                 if item.case and not again.case:
-                    (self._gallery.out / item.case).unlink(missing_ok=True)
+                    (self._image_grader.out / item.case).unlink(missing_ok=True)
         self._spoilt = list(better)
         if better:
             result.hidden = [better.get(item.name, item) for item in result.hidden]
@@ -321,7 +321,7 @@ class HiddenStepGrader(StepGrader):
         doctor = Diagnostician(self._work.kit, self.step, self._plan, self._ask, self._work.say)
         try:
             source = self._work.source(self.step) or ""
-            found = doctor.diagnose(self._result, self._gallery.made, self._unfinished, self._spoilt, source)
+            found = doctor.diagnose(self._result, self._image_grader.made, self._unfinished, self._spoilt, source)
             self._result.diagnoses = found
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
             self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
@@ -346,15 +346,15 @@ class HiddenStepGrader(StepGrader):
                         f"{'was' if len(not_chosen) == 1 else 'were'} not graded this time": not_chosen,
                         "you do not have right yet": [one.id for one in replaced if not only or one.id in only],
                     }
-                    self._result.cumulative = grade_integration(self._gallery, program, step, own, others)
+                    self._result.cumulative = grade_integration(self._image_grader, program, step, own, others)
                 self._result.status, self._result.points = status_and_points(self._result, step)
         return self._result
 
     def _wait_for(self, own: list[Step]) -> None:
         """A program of several steps has the time of the slowest, unless this one has hung before."""
-        if self._gallery.limits == self._limits:
+        if self._image_grader.limits == self._limits:
             seconds = max(self._work.kit.limits_of(one, self._settings.limits).seconds for one in own)
-            self._gallery.limits = replace(self._limits, seconds=seconds)
+            self._image_grader.limits = replace(self._limits, seconds=seconds)
 
     def _joined(self, right: list[Step]) -> tuple[Program | None, str]:
         """This step with those before it, or why there is no such program."""

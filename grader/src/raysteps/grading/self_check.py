@@ -55,10 +55,10 @@ class SelfCheckGrader(StepGrader):
         if programs is not None:
             self._raytrace = programs["raytrace"]
             draw = partial(self._draw, programs["raytrace"])
-            early = self._spare.start(partial(draw, self._gallery))
+            early = self._spare.start(partial(draw, self._image_grader))
             self._run_tests(programs["test"])
             early = self._drawn_again(draw, early)
-            result.images = draw(self._gallery) if early is None or early.cancel() else early.result()
+            result.images = draw(self._image_grader) if early is None or early.cancel() else early.result()
             source = self._work.source(self.step) or ""
             mark_waiting(result, self.step, self._work.kit.tests[self.step.id], source)
             result.messages += sum_up(result)
@@ -66,8 +66,8 @@ class SelfCheckGrader(StepGrader):
             result.status, result.points = status_and_points(result, self.step)
         return result
 
-    def _draw(self, program: Program, gallery: ImageGrader) -> list[ImageResult]:
-        return [grade_image(gallery, program, self.step, case) for case in self.step.images]
+    def _draw(self, program: Program, image_grader: ImageGrader) -> list[ImageResult]:
+        return [grade_image(image_grader, program, self.step, case) for case in self.step.images]
 
     @property
     def has_picture(self) -> bool:
@@ -83,7 +83,7 @@ class SelfCheckGrader(StepGrader):
         case, image = self.step.images[0], self._result.images[0] if self._result.images else None
         if self._raytrace is None or image is None or not image.mine or "--size" not in case.args:
             return
-        args = list(self._gallery.args_of(case))
+        args = list(self._image_grader.args_of(case))
         at = args.index("--size") + 1
         args[at] = "x".join(str(_LARGER * int(side)) for side in args[at].split("x"))
         limits = replace(self._work.kit.limits_of(self.step).of_program(), wall_seconds=seconds)

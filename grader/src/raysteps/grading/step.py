@@ -125,7 +125,7 @@ class StepGrader:
         self._compiled = compiled
         self._build = StudentBuild(work.kit, work.sandbox, work.folder)
         self._spare = spare
-        self._gallery = ImageGrader(work.kit, work.sandbox, limits, work.out)
+        self._image_grader = ImageGrader(work.kit, work.sandbox, limits, work.out)
         self._unfinished: list[str] = []
         self._result = StepResult(step.id, "not-started", 0.0, max_points(step, judged=judged), step.bonus)
 
@@ -211,9 +211,9 @@ class StepGrader:
             return early
         if early is not None and not early.cancel():
             wait([early])
-        self._gallery = replace(self._gallery, limits=self._limits, made={})
-        self._gallery.record_stops(self._result.tests)
-        return self._spare.start(partial(draw, self._gallery))
+        self._image_grader = replace(self._image_grader, limits=self._limits, made={})
+        self._image_grader.record_stops(self._result.tests)
+        return self._spare.start(partial(draw, self._image_grader))
 
 
 # Compiles the steps of a submission, several at a time.
