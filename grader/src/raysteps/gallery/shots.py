@@ -214,7 +214,7 @@ class MySteps:
         self._kit = kit
         self._sandbox = LimitsOnly()
         self._build = StudentBuild(kit.in_one_process(), self._sandbox, folder)
-        work = GradingContext(kit, submission, self._sandbox, folder, folder)
+        context = GradingContext(kit, submission, self._sandbox, folder, folder)
         self._limits: dict[str, StepLimits] = {}
         self._binaries: dict[str, Path] = {}
         self._notes: dict[str, str] = {}
@@ -222,7 +222,7 @@ class MySteps:
         for step in kit.steps:
             say(f"building your step {step.number}")
             self._limits[step.id] = limits_of(step, {"seconds": max(_SECONDS, step.seconds)})
-            self._compile(step, work.source(step))
+            self._compile(step, context.source(step))
 
     def _compile(self, step: Step, source: str | None) -> None:
         if source is None:

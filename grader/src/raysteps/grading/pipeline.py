@@ -71,7 +71,7 @@ class HiddenStepGrader(StepGrader):
 
     def __init__(
         self,
-        work: GradingContext,
+        context: GradingContext,
         step: Step,
         limits: StepLimits,
         compiled: dict[str, Compiled],
@@ -79,8 +79,8 @@ class HiddenStepGrader(StepGrader):
         spare: SpareProcessors,
         apart: Sandbox,
     ) -> None:
-        self._plan = read_plan(work.kit.project, step)
-        super().__init__(work, step, limits, compiled, spare, judged=self._plan is not None)
+        self._plan = read_plan(context.kit.project, step)
+        super().__init__(context, step, limits, compiled, spare, judged=self._plan is not None)
         self._settings = settings
         self._apart = apart  # runs what is asked a second time
         self._ran = False
@@ -115,7 +115,7 @@ class HiddenStepGrader(StepGrader):
             programs = self.programs()
             if programs is None:
                 return self._result
-            step, plan, result, kit = self.step, self._plan, self._result, self._work.kit
+            step, plan, result, kit = self.step, self._plan, self._result, self._context.kit
             binary = self._compiled[step.id].binary
             completed = None if binary is None else self._completed(binary)
             unseen = () if plan is None else hidden_scenes(kit.project, step, plan, self._settings.seed)
@@ -139,7 +139,7 @@ class HiddenStepGrader(StepGrader):
             spares = not why_unspared(result.hidden)
             result.hidden += [self._judge_scene(scene, not_spared, spares=spares) for scene in scenes]
             mark_waiting(
-                result, step, kit.tests[step.id], self._work.source(step) or "", replaced=completed is not None
+                result, step, kit.tests[step.id], self._context.source(step) or "", replaced=completed is not None
             )
             result.messages += sum_up(result)
             self._unexplained = not is_right(result)
@@ -150,11 +150,11 @@ class HiddenStepGrader(StepGrader):
         self, plan: Plan, worker: Program, completed: Programs | None, limits: StepLimits
     ) -> Callable[[], list[HiddenResult]]:
         """Asks the judge's cases when it is called."""
-        kit, settings = self._work.kit, self._settings
+        kit, settings = self._context.kit, self._settings
         ask = self._ask = self._asked_of(worker, completed, limits)
         if settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
             self._examples = Counterexamples(
-                ask, lambda cases, _: uncached_reference_answers(kit, cases), self._work.out, self._work.say
+                ask, lambda cases, _: uncached_reference_answers(kit, cases), self._context.out, self._context.say
             )
         return partial(
             run_hidden_tests,
@@ -177,7 +177,7 @@ class HiddenStepGrader(StepGrader):
             images.append(grade_image(image_grader, program, self.step, case))
         for scene in unseen:
             nff = scene.nff.encode()
-            path = self._work.folder / self.step.number / f"{hashlib.sha256(nff).hexdigest()[:16]}.nff"
+            path = self._context.folder / self.step.number / f"{hashlib.sha256(nff).hexdigest()[:16]}.nff"
             write_bytes(path, nff)
             rendered = image_grader.render(program, path, scene.args, noisy=scene.max_noise is not None)
             scenes.append(_RenderedScene(scene, path, rendered))
@@ -229,7 +229,7 @@ class HiddenStepGrader(StepGrader):
         written. None where it is not a single one or the last, or where steps are no libraries: with more of them
         missing, what is left would be taken for most of the work."""
         step, unfinished = self.step, self._unfinished
-        names = self._work.kit.linker_names(step, unfinished)
+        names = self._context.kit.linker_names(step, unfinished)
         if self._plan is None or not names or len(unfinished) != 1 or not self._after_missing():
             return None
         programs: Programs = {}
@@ -242,12 +242,12 @@ class HiddenStepGrader(StepGrader):
 
     def _run_tests_again(self, program: Program) -> None:
         """Those of functions after the one that is not written."""
-        tests = self._work.kit.tests[self.step.id]
+        tests = self._context.kit.tests[self.step.id]
         needed, after = set(self._unfinished), set(self._after_missing())
         own = [one for one in self._result.tests if after & set(tests[one.name]) and not needed & set(tests[one.name])]
         if all(test.passed for test in own):
             return
-        again = {test.name: test for test in run_tests(self._work.sandbox, program, tests, self._limits)}
+        again = {test.name: test for test in run_tests(self._context.sandbox, program, tests, self._limits)}
         own_names = {test.name for test in own}
         self._result.tests = [
             replace(again[test.name], weight=test.weight) if test.name in own_names else test
@@ -255,7 +255,7 @@ class HiddenStepGrader(StepGrader):
         ]
 
     def _asked_of(self, worker: Program, completed: Programs | None, limits: StepLimits) -> Ask:
-        sandbox = self._work.sandbox
+        sandbox = self._context.sandbox
         ask = ask_student(sandbox, worker, limits)
         if completed is None:
             return ask
@@ -268,7 +268,7 @@ class HiddenStepGrader(StepGrader):
         """Whoever is better so is judged so. Who hung is not asked again, nor anybody where several functions are not
         written: as in `_completed`, what is left would be taken for most of the work. A tree that spares nothing stays:
         a search through it spares nothing either."""
-        result, kit, missing, examples = self._result, self._work.kit, set(self._unfinished), self._examples
+        result, kit, missing, examples = self._result, self._context.kit, set(self._unfinished), self._examples
         wrong = [item for item in result.hidden if not item.passed and item.name not in missing]
         if len(missing) > 1:
             return
@@ -304,27 +304,27 @@ class HiddenStepGrader(StepGrader):
 
     def _worker_with(self, binary: Path, replaced: Collection[str]) -> Program | None:
         """With the reference's functions in place of these. None where steps are no libraries."""
-        step, names = self.step, self._work.kit.linker_names(self.step, replaced)
+        step, names = self.step, self._context.kit.linker_names(self.step, replaced)
         binaries = {step.number: binary}
-        build = StudentBuild(self._work.kit, self._apart, self._work.folder)
+        build = StudentBuild(self._context.kit, self._apart, self._context.folder)
         return build.program("worker", step, binaries, self._limits, replaced=names)[0] if names else None
 
     @property
     def has_to_learn(self) -> bool:
         """Whether it takes a while to say why the step is wrong: the known mistakes must be learned before."""
-        return self._unexplained and not are_learned(self._work.kit, self.step)
+        return self._unexplained and not are_learned(self._context.kit, self.step)
 
     def explain(self) -> None:
         """In words why it is not right. Whatever a student's program says, it costs no grade."""
         if not self._unexplained:
             return
-        doctor = Diagnostician(self._work.kit, self.step, self._plan, self._ask, self._work.say)
+        doctor = Diagnostician(self._context.kit, self.step, self._plan, self._ask, self._context.say)
         try:
-            source = self._work.source(self.step) or ""
+            source = self._context.source(self.step) or ""
             found = doctor.diagnose(self._result, self._image_grader.made, self._unfinished, self._spoilt, source)
             self._result.diagnoses = found
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
-            self._work.say(f"no diagnosis of {self.step.number}: {error!r}")
+            self._context.say(f"no diagnosis of {self.step.number}: {error!r}")
 
     def finish(self, right: Collection[str]) -> StepResult:
         """After all steps were graded alone: does this one work with those before it that are right, by their ids? One
@@ -332,7 +332,7 @@ class HiddenStepGrader(StepGrader):
         with self._guarded():
             if self._ran:
                 step = self.step
-                earlier = self._work.kit.handed_in_up_to(step)[:-1]
+                earlier = self._context.kit.handed_in_up_to(step)[:-1]
                 replaced = [other for other in earlier if other.id not in right]
                 program, why = self._joined([other for other in earlier if other.id in right])
                 if program is None:
@@ -353,7 +353,7 @@ class HiddenStepGrader(StepGrader):
     def _wait_for(self, own: list[Step]) -> None:
         """A program of several steps has the time of the slowest, unless this one has hung before."""
         if self._image_grader.limits == self._limits:
-            seconds = max(self._work.kit.limits_of(one, self._settings.limits).seconds for one in own)
+            seconds = max(self._context.kit.limits_of(one, self._settings.limits).seconds for one in own)
             self._image_grader.limits = replace(self._limits, seconds=seconds)
 
     def _joined(self, right: list[Step]) -> tuple[Program | None, str]:
@@ -380,11 +380,11 @@ def _tell_of_the_limit(steps: list[StepResult], seconds: float) -> None:
             )
 
 
-def _make_questions(work: GradingContext, chosen: Sequence[Step], seed: int) -> None:
+def _make_questions(context: GradingContext, chosen: Sequence[Step], seed: int) -> None:
     """What is made is kept."""
     for step in chosen:
-        plan = read_plan(work.kit.project, step)
-        if plan is not None and work.source(step) is not None:
+        plan = read_plan(context.kit.project, step)
+        if plan is not None and context.source(step) is not None:
             make_all_cases(step, plan, seed)
 
 
@@ -419,7 +419,7 @@ def grade_submission(
     chosen = _chosen(kit, settings)
     with ExitStack() as ends:
         folder = ends.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True))
-        work = GradingContext(kit, submission, counted, Path(folder), out, say, ahead=ahead)
+        context = GradingContext(kit, submission, counted, Path(folder), out, say, ahead=ahead)
         spare = SpareProcessors(jobs - len(chosen), ends)
         with (
             ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
@@ -428,11 +428,11 @@ def grade_submission(
             ahead.until_interrupted(),
         ):
             say("building the steps")
-            spare.start(partial(_make_questions, work, chosen, settings.seed))  # while the compiler works
-            compiled = compile_steps(work, chosen, pool, settings.limits)
+            spare.start(partial(_make_questions, context, chosen, settings.seed))  # while the compiler works
+            compiled = compile_steps(context, chosen, pool, settings.limits)
 
             graders = [
-                HiddenStepGrader(work, step, kit.limits_of(step, settings.limits), compiled, settings, spare, apart)
+                HiddenStepGrader(context, step, kit.limits_of(step, settings.limits), compiled, settings, spare, apart)
                 for step in chosen
             ]
             order = -1 if jobs > 1 else 1  # late steps take longest: first, they leave nobody idle at the end

@@ -29,9 +29,9 @@ from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback
 # One step between the student's own steps: a students' kit has no reference to put around it.
 
 
-def own_steps(work: GradingContext, step: Step, compiled: dict[str, Compiled]) -> dict[str, Path]:
+def own_steps(context: GradingContext, step: Step, compiled: dict[str, Compiled]) -> dict[str, Path]:
     """By number, the student's steps before this one that build; the kit's stub stands in for the others."""
-    before = [other for other in earlier(step, work.kit.steps) if other.id in compiled]
+    before = [other for other in earlier(step, context.kit.steps) if other.id in compiled]
     binaries = {other.number: compiled[other.id].binary for other in before}
     return {number: binary for number, binary in binaries.items() if binary is not None}
 
@@ -46,7 +46,7 @@ class SelfCheckGrader(StepGrader):
     _raytrace: Program | None = None
 
     def _program(self, kind: Kind, binary: Path) -> Program | None:
-        own = own_steps(self._work, self.step, self._compiled) | {self.step.number: binary}
+        own = own_steps(self._context, self.step, self._compiled) | {self.step.number: binary}
         return self._linked(kind, own, together=True)
 
     def check(self) -> StepResult:
@@ -59,8 +59,8 @@ class SelfCheckGrader(StepGrader):
             self._run_tests(programs["test"])
             early = self._drawn_again(draw, early)
             result.images = draw(self._image_grader) if early is None or early.cancel() else early.result()
-            source = self._work.source(self.step) or ""
-            mark_waiting(result, self.step, self._work.kit.tests[self.step.id], source)
+            source = self._context.source(self.step) or ""
+            mark_waiting(result, self.step, self._context.kit.tests[self.step.id], source)
             result.messages += sum_up(result)
             result.cumulative = Integration(all(image.passed for image in result.images[:1]))
             result.status, result.points = status_and_points(result, self.step)
@@ -86,13 +86,13 @@ class SelfCheckGrader(StepGrader):
         args = list(self._image_grader.args_of(case))
         at = args.index("--size") + 1
         args[at] = "x".join(str(_LARGER * int(side)) for side in args[at].split("x"))
-        limits = replace(self._work.kit.limits_of(self.step).of_program(), wall_seconds=seconds)
+        limits = replace(self._context.kit.limits_of(self.step).of_program(), wall_seconds=seconds)
         drawn = render(
-            self._work.sandbox, self._raytrace, self._work.kit.project.root / case.scene, tuple(args), limits
+            self._context.sandbox, self._raytrace, self._context.kit.project.root / case.scene, tuple(args), limits
         )
         if drawn.pixels is not None:
             large = image.mine.replace("-mine.png", "-large.png")
-            write_png(drawn.pixels, self._work.out / large)
+            write_png(drawn.pixels, self._context.out / large)
             image.large = large
 
 
@@ -124,14 +124,14 @@ def name_crash(
     alone, limits = kit.has_reference, kit.limits_of(step)
     with suppress(RaystepsError, OSError), tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         counted = AccountingSandbox(sandbox)
-        work = GradingContext(kit.sanitized(), submission, counted, Path(folder), Path(folder))
+        context = GradingContext(kit.sanitized(), submission, counted, Path(folder), Path(folder))
         sources = [*([] if alone else earlier(step, kit.steps)), step]
         with ThreadPoolExecutor(processor_count()) as pool, counted.until_interrupted():
-            compiled = compile_steps(work, sources, pool, {})
+            compiled = compile_steps(context, sources, pool, {})
         binary = compiled[step.id].binary
         if binary is not None:
-            binaries = own_steps(work, step, compiled) | {step.number: binary}
-            build = StudentBuild(work.kit, sandbox, work.folder)
+            binaries = own_steps(context, step, compiled) | {step.number: binary}
+            build = StudentBuild(context.kit, sandbox, context.folder)
             program, _ = build.program("test", step, binaries, limits, together=not alone)
             if program is not None:
                 files = [Path(other.path).name for other in sources]
@@ -147,9 +147,9 @@ _TROUBLE = {
 }
 
 
-def blame(work: GradingContext, step: Step, found: Mapping[str, StepResult]) -> list[str]:
+def blame(context: GradingContext, step: Step, found: Mapping[str, StepResult]) -> list[str]:
     """Earlier steps that are not right, and the pictures to compare with. Trees show in their own pictures only."""
-    before = [other for other in earlier(step, work.kit.steps) if not other.is_about_a_tree]
+    before = [other for other in earlier(step, context.kit.steps) if not other.is_about_a_tree]
     wrong = [other for other in before if not is_right(found[other.id])]
     if not wrong:
         return []
@@ -160,14 +160,16 @@ def blame(work: GradingContext, step: Step, found: Mapping[str, StepResult]) -> 
     if others:
         named = join_and([other.number for other in others])
         lines.append(f"Not right either, perhaps only because of it: {named}. Mend {first.number} first.")
-    root = work.kit.project.root
-    pictures = [reference_image_path(work.kit.project, step, case).relative_to(root).as_posix() for case in step.images]
+    root = context.kit.project.root
+    pictures = [
+        reference_image_path(context.kit.project, step, case).relative_to(root).as_posix() for case in step.images
+    ]
     lines.append(f"Compare with the reference's picture{'s' if len(pictures) > 1 else ''}: {join_and(pictures)}.")
     return lines
 
 
 def _check(
-    work: GradingContext, counted: AccountingSandbox, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]
+    context: GradingContext, counted: AccountingSandbox, steps: Sequence[Step], jobs: int, chosen: Sequence[Step]
 ) -> tuple[dict[str, StepResult], list[SelfCheckGrader]]:
     """The chosen steps, and what checked them; the others only where something is wrong that they may have caused, and
     out of sight."""
@@ -177,15 +179,15 @@ def _check(
         ExitStack() as ends,
         ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
         counted.until_interrupted(),
-        work.ahead.until_interrupted(),
+        context.ahead.until_interrupted(),
     ):
-        work.say("building the steps")
-        compiled = compile_steps(work, list(steps), pool, {})
+        context.say("building the steps")
+        compiled = compile_steps(context, list(steps), pool, {})
 
         def check(step: Step, spare: SpareProcessors) -> StepResult:
-            unseen = replace(work, out=work.folder / "unseen", say=lambda text: None)
-            here = work if step in chosen else unseen
-            grader = SelfCheckGrader(here, step, work.kit.limits_of(step), compiled, spare)
+            unseen = replace(context, out=context.folder / "unseen", say=lambda text: None)
+            here = context if step in chosen else unseen
+            grader = SelfCheckGrader(here, step, context.kit.limits_of(step), compiled, spare)
             if step in chosen:
                 graders.append(grader)
             return grader.check()
@@ -198,7 +200,7 @@ def _check(
         answers = interruptible_map(pool, partial(check, spare=none), rest)
         found.update(zip([step.id for step in rest], answers, strict=True))
     for step in wrong:
-        found[step.id].messages[:0] = blame(work, step, found)
+        found[step.id].messages[:0] = blame(context, step, found)
     return found, graders
 
 
@@ -218,9 +220,9 @@ def self_check(
     start = time.monotonic()
     counted = AccountingSandbox(sandbox)
     with tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True) as folder:
-        work = GradingContext(kit, submission, counted, Path(folder), out, say, own_libraries(kit), ahead)
+        context = GradingContext(kit, submission, counted, Path(folder), out, say, own_libraries(kit), ahead)
         steps = [step for step in kit.steps if step.index <= max(one.index for one in chosen)]
-        found, graders = _check(work, counted, steps, jobs, chosen)
+        found, graders = _check(context, counted, steps, jobs, chosen)
         asked = [found[step.id] for step in chosen]
         name_crash(kit, submission, sandbox, say, asked)
         timing = Timing(round(time.monotonic() - start, 2), round(counted.cpu_seconds + ahead.cpu_seconds, 2))

@@ -111,7 +111,7 @@ class StepGrader:
 
     def __init__(
         self,
-        work: GradingContext,
+        context: GradingContext,
         step: Step,
         limits: StepLimits,
         compiled: dict[str, Compiled],
@@ -119,13 +119,13 @@ class StepGrader:
         *,
         judged: bool = False,
     ) -> None:
-        self._work = work
+        self._context = context
         self.step = step
         self._limits = limits
         self._compiled = compiled
-        self._build = StudentBuild(work.kit, work.sandbox, work.folder)
+        self._build = StudentBuild(context.kit, context.sandbox, context.folder)
         self._spare = spare
-        self._image_grader = ImageGrader(work.kit, work.sandbox, limits, work.out)
+        self._image_grader = ImageGrader(context.kit, context.sandbox, limits, context.out)
         self._unfinished: list[str] = []
         self._result = StepResult(step.id, "not-started", 0.0, max_points(step, judged=judged), step.bonus)
 
@@ -133,26 +133,26 @@ class StepGrader:
         """All programs of the step. None where there is nothing to run, and the result says why: what goes wrong in
         the student's code is a result; only the kit's own trouble is raised."""
         step, result = self.step, self._result
-        self._work.say(f"checking {step.id}")
-        source = self._work.source(step)
+        self._context.say(f"checking {step.id}")
+        source = self._context.source(step)
         if source is None:
-            handed_in = step.id in self._work.submission.sources
+            handed_in = step.id in self._context.submission.sources
             missing = f"{step.file} was not handed in."
             if handed_in:
                 missing = f"{step.file} is still the stub. What to do stands in steps/{step.id}/README.md."
-            result.not_taken = self._work.submission.notes.get(step.id, "")
+            result.not_taken = self._context.submission.notes.get(step.id, "")
             result.messages = [result.not_taken or missing]
             why = "No file was taken for this step." if result.not_taken else "This step was not started."
             result.cumulative = Integration(False, why)
             return None
-        remark = self._work.submission.remarks.get(step.id)
+        remark = self._context.submission.remarks.get(step.id)
         result.messages += [remark] if remark else []
         self._unfinished = unfinished_functions(source, step)
         compiled = self._compiled[step.id]
         result.build_log = build_log(compiled.ran)
         if compiled.binary is None:
             self._expect_room()
-            self._does_not_build(why_not_built(self._work.kit, step, compiled, source))
+            self._does_not_build(why_not_built(self._context.kit, step, compiled, source))
             return None
         programs: Programs = {}
         for kind in self.kinds:
@@ -164,9 +164,9 @@ class StepGrader:
 
     def _expect_room(self) -> None:
         """A full disk is nobody's fault. The disk is asked, not the compiler, whose words a source can shape."""
-        free = shutil.disk_usage(self._work.folder).free
+        free = shutil.disk_usage(self._context.folder).free
         if free < _LEAST_ROOM:
-            raise GraderFault(f"{self.step.id} was not built: {free >> 20} MB are left in {self._work.folder}")
+            raise GraderFault(f"{self.step.id} was not built: {free >> 20} MB are left in {self._context.folder}")
 
     def _does_not_build(self, message: str) -> None:
         self._result.status = "does-not-build"
@@ -188,17 +188,17 @@ class StepGrader:
         return program
 
     def _run_tests(self, program: Program) -> None:
-        tests = self._work.kit.tests[self.step.id]
+        tests = self._context.kit.tests[self.step.id]
 
         def say(text: str) -> None:
-            self._work.say(f"{self.step.id}: {text}")
+            self._context.say(f"{self.step.id}: {text}")
 
-        self._result.tests = run_tests(self._work.sandbox, program, tests, self._limits, say)
+        self._result.tests = run_tests(self._context.sandbox, program, tests, self._limits, say)
         self._weigh_tests()
 
     def _weigh_tests(self) -> None:
         """By what is known of the functions so far."""
-        result, tests = self._result, self._work.kit.tests[self.step.id]
+        result, tests = self._result, self._context.kit.tests[self.step.id]
         passed = {test.name for test in result.tests if test.passed}
         weights = test_weights(self.step, tests, still_missing(self._unfinished, tests, passed, result.hidden))
         for test in result.tests:
@@ -241,19 +241,19 @@ def interruptible_map(pool: Executor, ask: Callable[[_Asked], _Answer], items: S
 
 
 def compile_steps(
-    work: GradingContext, chosen: list[Step], pool: ThreadPoolExecutor, changes: Mapping[str, float]
+    context: GradingContext, chosen: list[Step], pool: ThreadPoolExecutor, changes: Mapping[str, float]
 ) -> dict[str, Compiled]:
     """Each chosen step that was started."""
-    sources = {step: work.source(step) for step in chosen}
+    sources = {step: context.source(step) for step in chosen}
     started = [(step, source) for step, source in sources.items() if source is not None]
     started.sort(key=lambda item: -len(item[1]))  # what takes longest first: it leaves nobody idle at the end
 
     def compile_one(item: tuple[Step, str]) -> Compiled:
         step, source = item
-        if step.id in work.ahead.steps:
-            return work.ahead.steps[step.id].result()
-        build = StudentBuild(work.kit, work.sandbox, work.folder, work.kept)
-        return build.compile(step, source.encode(), work.kit.limits_of(step, changes))
+        if step.id in context.ahead.steps:
+            return context.ahead.steps[step.id].result()
+        build = StudentBuild(context.kit, context.sandbox, context.folder, context.kept)
+        return build.compile(step, source.encode(), context.kit.limits_of(step, changes))
 
     compiled = interruptible_map(pool, compile_one, started)
     return {step.id: one for (step, _), one in zip(started, compiled, strict=True)}

@@ -92,10 +92,10 @@ class QuickLook:
             return {self.step.number: binary}
         own_files = load_submission(self.kit.project.steps, self.kit.steps)
         kept = own_libraries(self.kit)
-        work = GradingContext(self.kit, own_files, self.sandbox, folder, self.out, kept=kept)
+        context = GradingContext(self.kit, own_files, self.sandbox, folder, self.out, kept=kept)
         with ThreadPoolExecutor() as pool:
             before = earlier(self.step, self.kit.steps)
-            own = own_steps(work, self.step, compile_steps(work, before, pool, {}))
+            own = own_steps(context, self.step, compile_steps(context, before, pool, {}))
             return own | {self.step.number: binary}
 
     def _run(self, build: StudentBuild, binary: Path, result: StepResult, folder: Path, source: str) -> StepResult:
