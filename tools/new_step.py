@@ -20,7 +20,7 @@ from tools.test_submissions import write_samples
 # What a new step may be called.
 
 _NAME = re.compile(r"([0-9]{2})-([a-z]+(?:-[a-z]+)*)")
-_LONGEST = 40
+_MAX_CHARACTERS = 40
 
 
 # Those that new steps of a part may have: the framework draws pictures of steps 10 to 19 as part two does.
@@ -30,10 +30,10 @@ _NUMBERS = {1: range(20, 100), 2: range(10, 20)}
 def check_name(project: Project, name: str, part: int) -> None:
     """Whether a step can be called so; else what to write instead."""
     found = _NAME.fullmatch(name)
-    if found is None or len(name) > _LONGEST:
+    if found is None or len(name) > _MAX_CHARACTERS:
         raise UsageError(
             f"'{name}' is no name of a step; expected two digits and words of small letters, parted by '-', at most "
-            f"{_LONGEST} characters, such as 20-fog"
+            f"{_MAX_CHARACTERS} characters, such as 20-fog"
         )
     number, words = found.groups()
     if is_windows_device(words):

@@ -41,14 +41,14 @@ _SAMPLES, _FEW_SAMPLES, _NOISY_SAMPLES = 9, 4, 64
 _BLACK = "The picture is black: lamps that have a size shine from step 12 on."
 _SIDE = (160, 8192)  # pixels
 _MAX_SAMPLES = 64
-_LONGEST = 60
+_MAX_LETTERS = 60  # of the title
 _BAD_SCENE = UsageError.exit_code  # raytrace has said where
 
 
 def _words(word: str) -> str:
     text = clean(word).strip()
-    if len(text) > _LONGEST or "\n" in text:
-        raise argparse.ArgumentTypeError(f"expected one line of at most {_LONGEST} letters")
+    if len(text) > _MAX_LETTERS or "\n" in text:
+        raise argparse.ArgumentTypeError(f"expected one line of at most {_MAX_LETTERS} letters")
     return text
 
 

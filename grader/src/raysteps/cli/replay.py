@@ -47,7 +47,7 @@ def _find(project: Project, path: Path) -> Path:
     return below if not path.exists() and below.is_file() else path
 
 
-_LARGEST = 64 << 20  # bytes of a results.json
+_MAX_BYTES = 64 << 20  # of a results.json
 
 
 def _inside(parts: list[Any], name: str) -> list[Any]:
@@ -71,7 +71,7 @@ def _refuse_what_is_no_case(path: Path) -> None:
     """Another document of the kit, above all the results.json beside the cases, or none of it."""
     try:
         with path.open("rb") as file:
-            document = json.loads(file.read(_LARGEST))
+            document = json.loads(file.read(_MAX_BYTES))
     except (OSError, ValueError, RecursionError):
         return  # what read_case said is right
     schema = str(document.get("schema")) if isinstance(document, dict) else ""

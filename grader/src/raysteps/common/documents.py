@@ -13,7 +13,7 @@ from msgspec import Meta
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import readable_json
-from raysteps.common.text import nearest, shorten
+from raysteps.common.text import MAX_FOUND, nearest, shorten
 
 T = TypeVar("T")
 
@@ -33,14 +33,14 @@ def former_keys(kind: object) -> Collection[str]:
     return keys
 
 
-_LONGEST = 300  # characters of what is told of a stranger's file
+_MAX_CHARACTERS = 300  # of what is told of a stranger's file
 
 
 class Malformed(ValueError):
     """What is wrong with a document, and where."""
 
     def __init__(self, problem: str, place: str = "") -> None:
-        super().__init__(shorten(f"{place}: {problem}" if place else problem, _LONGEST))
+        super().__init__(shorten(f"{place}: {problem}" if place else problem, _MAX_CHARACTERS))
         self.problem, self.place = problem, place
 
 
@@ -232,7 +232,7 @@ def _advice(what: str, line: str) -> str:
     found = (words for said, text, words in _ADVICE if re.match(said, what) and re.match(text, value))
     told = next(found, "") if what == "Unclosed array" or not _is_toml(line) else ""
     told = told.replace("{key}", setting[1]).replace("{value}", value.replace('"', "'"))
-    return f"; {shorten(told, _LONGEST)}" if told else ""
+    return f"; {shorten(told, _MAX_CHARACTERS)}" if told else ""
 
 
 def _said_twice(text: str) -> tuple[int, str] | None:
@@ -350,7 +350,6 @@ def _path_of(document: object, kind: type[object], error: Malformed) -> list[str
 _KINDS = {"int": "a whole number", "float": "a number", "str": "text", "array": "a list", "object": "a table"}
 _KIND_NAME = re.compile(r"\b(?:int|float|str|array|object)\b")
 _OR_NOTHING = " | null"
-_LONGEST_VALUE = 80
 _MISSING = re.compile("object missing required field (.*)")
 
 
@@ -380,7 +379,7 @@ def _in_words(problem: str, found: object, path: Sequence[str], expected: Mappin
         words = words.replace("of length >= 1", "that is not empty").replace(">=", "of at least").replace(" | ", " or ")
         words = _KIND_NAME.sub(lambda kind: _KINDS[kind[0]], words)
     name = f"{names[-1]}: " if names else ""
-    return f"{name}expected {words}; found {shorten(repr(found), _LONGEST_VALUE)}"
+    return f"{name}expected {words}; found {shorten(repr(found), MAX_FOUND)}"
 
 
 def parse_table(text: str, path: Path, what: str, kind: type[T], expected: Mapping[str, str] | None = None) -> T:

@@ -44,6 +44,9 @@ def seen(text: str) -> str:
     return _UNSEEN.sub("", _bare(text))
 
 
+MAX_FOUND = 80  # characters that are told of a value that does not fit
+
+
 def shorten(text: str, limit: int = 2000) -> str:
     """At most that many characters."""
     return text if len(text) <= limit else text[: limit - 4] + " ..."

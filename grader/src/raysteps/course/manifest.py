@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from raysteps.common.errors import GraderFault, UsageError, reason
-from raysteps.common.text import belongs_above, clean, did_you_mean, join_and
+from raysteps.common.text import MAX_FOUND, belongs_above, clean, did_you_mean, join_and
 from raysteps.course.project import Project
 
 if TYPE_CHECKING:  # what checks the types of documents takes long to load
@@ -205,7 +205,6 @@ _IMAGE: _Form = {
     "paper_tests": (_is_positive, "a number of tests per ray"),
     "max_noise": (_is_positive, "a number above 0"),
 }
-_LONGEST = 80  # characters of what was found
 
 
 class _Wrong(Exception):
@@ -228,11 +227,11 @@ def _known(key: str, form: _Form) -> str:
 def _refuse_misfits(table: Mapping[str, Any], form: _Form, needed: Sequence[str], *keys: str) -> None:
     for key in table:
         if key not in form:
-            raise _Wrong((*keys, key), f"unknown key '{clean(key, _LONGEST)}'{_known(key, form)}")
+            raise _Wrong((*keys, key), f"unknown key '{clean(key, MAX_FOUND)}'{_known(key, form)}")
     for key, value in table.items():
         fits, expected = form[key]
         if not fits(value):
-            raise _Wrong((*keys, key), f"{key}: expected {expected}; found {clean(repr(value), _LONGEST)}")
+            raise _Wrong((*keys, key), f"{key}: expected {expected}; found {clean(repr(value), MAX_FOUND)}")
     for key in needed:
         if key not in table:
             raise _Wrong(keys, f"{key} is missing; expected {form[key][1]}")

@@ -12,13 +12,12 @@ from msgspec import Meta
 
 from raysteps.common.documents import Malformed, Text, convert, place_in_toml, read_toml
 from raysteps.common.errors import UsageError, reason
-from raysteps.common.text import belongs_above, clean, did_you_mean
+from raysteps.common.text import MAX_FOUND, belongs_above, clean, did_you_mean
 from raysteps.course.project import Project
 
 FILE = "course.toml"
 COURSE_VARIABLE = "RAYSTEPS_COURSE"  # names another file: a seed that is secret need not lie in a repository
 USUAL_SEED = 1
-_LONGEST = 80  # characters of what was found
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,7 @@ class Course:
 
 
 _Line = Annotated[str, Meta(min_length=1, max_length=200, pattern=r"^\S[^\n\r]*$")]
-_MOST_POINTS = 10_000
+_MAX_POINTS = 10_000
 _Names = _Line | Annotated[int, Meta(ge=0, le=99)]
 
 
@@ -66,7 +65,7 @@ class _Table:
     term: _Line = ""
     parts: Annotated[list[Annotated[int, Meta(ge=1, le=9)]], Meta(min_length=1)] = field(default_factory=lambda: [1])
     steps: _Names | list[_Names] | dict[str, date] | None = None
-    points: dict[str, Annotated[float, Meta(gt=0, le=_MOST_POINTS)]] = field(default_factory=dict)
+    points: dict[str, Annotated[float, Meta(gt=0, le=_MAX_POINTS)]] = field(default_factory=dict)
     seed: Annotated[int, Meta(ge=0, le=999_999_999_999_999_999)] | None = None
     late_policy: Text | dict[str, object] | None = None
 
@@ -77,7 +76,7 @@ _EXPECTED = {
     "parts": "a list of the kit's parts, such as [1, 2]",
     "steps": 'steps such as "1-4", a list of them, or a table with the day on which they are given out, such as '
     '"1-2" = 2026-10-12',
-    "points": f'a table of steps, each with its points (more than 0, at most {_MOST_POINTS}), such as "02" = 25',
+    "points": f'a table of steps, each with its points (more than 0, at most {_MAX_POINTS}), such as "02" = 25',
     "seed": "a whole number from 0 to 999999999999999999",
     "late_policy": "the name of a file, or a table with its deadline and percent_per_day",
 }
@@ -102,7 +101,7 @@ def _refuse_wrong(key: str, value: object, name: str | None, text: str, path: Pa
         convert({key: value if name is None else {name: value}}, _Table)
     except Malformed as error:
         where = place_in_toml(text, [key] if name is None else [key, name])
-        found = clean(str(value) if isinstance(value, (date, time)) else repr(value), _LONGEST)
+        found = clean(str(value) if isinstance(value, (date, time)) else repr(value), MAX_FOUND)
         raise UsageError(f"{path}:{where}: {key}: expected {_EXPECTED[key]}; found {found}") from error
 
 

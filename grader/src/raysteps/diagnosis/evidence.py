@@ -29,7 +29,7 @@ from raysteps.toolchain.kit_artifacts import BuiltKit
 # about the seed of a grade, and what a known mistake answers to them is computed once.
 
 _SEED = "diagnosis"
-_LONGEST = 6000  # characters; of a longer answer its hash will do
+_MAX_CHARACTERS = 6000  # of an answer; of a longer one its hash will do
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def questions_of(kit: BuiltKit, step: Step, plan: Plan, names: Collection[str]) 
 
 def _kept(line: str) -> str:
     """What is kept of an answer."""
-    return line if len(line) <= _LONGEST else "#" + hashlib.sha256(line.encode()).hexdigest()[:32]
+    return line if len(line) <= _MAX_CHARACTERS else "#" + hashlib.sha256(line.encode()).hexdigest()[:32]
 
 
 def _said(

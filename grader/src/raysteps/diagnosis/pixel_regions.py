@@ -180,7 +180,7 @@ def place_of(picture: Picture, objects: ObjectMap, terms: Sequence[str]) -> str:
 
 _WITHIN = 0.9  # of the wrong pixels lie in the mask
 _FILLED = 0.25  # of the mask is wrong
-_LARGEST = 0.7  # of the picture: a mask that says something
+_MAX_MASK_SHARE = 0.7  # of the picture, that still says something
 
 
 @dataclass(frozen=True)
@@ -245,7 +245,7 @@ class Terms:
                 continue
             mask = make()
             within = int((wrong & mask).sum())
-            if within >= _WITHIN * wrong.sum() and within >= _FILLED * mask.sum() and mask.mean() <= _LARGEST:
+            if within >= _WITHIN * wrong.sum() and within >= _FILLED * mask.sum() and mask.mean() <= _MAX_MASK_SHARE:
                 terms.append(term)
         return terms
 

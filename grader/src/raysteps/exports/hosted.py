@@ -106,7 +106,7 @@ def by_id(steps: Sequence[Step]) -> Mapping[str, Step]:
 
 _GIT_SECONDS = 30
 _MAX_GIT_FILE, _MAX_PACKED = 1 << 12, 1 << 24
-_MOST_REFERENCES = 5  # that git itself follows
+_MAX_REFERENCES = 5  # that git itself follows
 _COMMIT, _SHORT = re.compile("[0-9a-f]{40}(?:[0-9a-f]{24})?"), 40
 _REFERENCE, _ELSEWHERE = re.compile(r"ref: (refs/\S+)"), re.compile("gitdir: (.+)")
 _MADE = re.compile(r"^committer .* ([0-9]{1,12}) [+-][0-9]{4}$", re.M)
@@ -185,7 +185,7 @@ def _stores(repository: Path) -> tuple[Path, Path]:
 def _checked_out(store: Path, shared: Path) -> str:
     """The commit, as git's own files tell it; something else where they do not."""
     said, packed = _git_file(store / "HEAD"), _git_file(shared / "packed-refs", _MAX_PACKED)
-    for _ in range(_MOST_REFERENCES):
+    for _ in range(_MAX_REFERENCES):
         named = _REFERENCE.fullmatch(said)
         if named is None or ".." in said:
             break

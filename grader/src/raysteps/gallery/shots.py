@@ -26,7 +26,7 @@ from raysteps.toolchain.limits import StepLimits, limits_of
 
 # What a visitor of the gallery is told; what each step adds, its step.toml says.
 
-_LONGEST_SENTENCE = 240
+_MAX_SENTENCE = 240  # characters
 _SCENES = {
     "showcase": ("Showcase", "Painted balls, pillars, a mirror, polished tiles and glass: something for every step."),
     "sphereflake": ("Sphereflake", "A ball carries nine smaller ones, and each of these nine more: 820 in all."),
@@ -53,7 +53,7 @@ def _first_sentence(scene: Path) -> str:
             break
         lines.append(line.lstrip("# \t").strip())
     sentence = re.split(r"(?<=[.:])\s", " ".join(lines))[0].rstrip(":")
-    return shorten(printable(sentence), _LONGEST_SENTENCE)
+    return shorten(printable(sentence), _MAX_SENTENCE)
 
 
 def about_scene(name: str, scene: Path) -> tuple[str, str]:
@@ -203,7 +203,7 @@ def _step_of(tree: Tree, scene: GalleryScene, kit: BuiltKit) -> Step | None:
 # The pictures of a student's own steps. What goes wrong in a step is a note, and the others go on.
 
 _SECONDS = 120.0
-_LONGEST = 600
+_MAX_CHARACTERS = 600  # of why a step does not build
 
 
 class MySteps:
@@ -230,7 +230,7 @@ class MySteps:
             return
         compiled = self._build.compile(step, source.encode(), self._limits[step.id])
         if compiled.binary is None:
-            self._notes[step.id] = shorten(why_not_built(self._kit, step, compiled, source), _LONGEST)
+            self._notes[step.id] = shorten(why_not_built(self._kit, step, compiled, source), _MAX_CHARACTERS)
             return
         self._binaries[step.id] = compiled.binary
         left = unfinished_functions(source, step)
@@ -241,7 +241,7 @@ class MySteps:
             up_to = self._kit.handed_in_up_to(step)
             own = {other.number: self._binaries[other.id] for other in up_to if other.id in self._binaries}
             program, ran = self._build.program("raytrace", step, own, self._limits[step.id], together=True)
-            self._programs[step.id] = (program, "" if ran is None else shorten(link_message(ran), _LONGEST))
+            self._programs[step.id] = (program, "" if ran is None else shorten(link_message(ran), _MAX_CHARACTERS))
         return self._programs[step.id]
 
     def _render(self, program: Program, step: Step, scene: GalleryScene, args: tuple[str, ...]) -> RenderResult:

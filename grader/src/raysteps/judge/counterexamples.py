@@ -228,7 +228,7 @@ class Shrinker:
 # A single case in a file, to be asked again: cases/NN-function.json beside results.json.
 
 SCHEMA: Literal["raysteps/case/v1"] = "raysteps/case/v1"
-_LARGEST = 1 << 20  # bytes
+_MAX_BYTES = 1 << 20
 
 
 @dataclass(frozen=True)
@@ -263,8 +263,8 @@ def read_case(path: Path) -> CaseFile:
     """Anything may stand in a file that somebody names."""
     try:
         with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
-        if len(data) > _LARGEST:
+            data = file.read(_MAX_BYTES + 1)
+        if len(data) > _MAX_BYTES:
             raise _refuse(path, "too large")
         case = parse(data, CaseFile)
     except IsADirectoryError as error:

@@ -368,7 +368,7 @@ class Box:
 
 _MAX_DIGITS = 40
 _FLAGS = ("0", "1")
-_LONGEST = 2_000_000  # characters; the largest tree is half as long
+_MAX_CHARACTERS = 2_000_000  # of a line; the largest tree is half as long
 
 
 class ProtocolError(Exception):
@@ -379,7 +379,7 @@ class TokenReader:
     """The words of one answer, from left to right."""
 
     def __init__(self, line: str) -> None:
-        if len(line) > _LONGEST:
+        if len(line) > _MAX_CHARACTERS:
             raise ProtocolError("the answer is too long")
         self._words = line.split()
         self._next = 0

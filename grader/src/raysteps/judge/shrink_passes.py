@@ -39,7 +39,7 @@ _ITEMS = {
 }
 _NAMES = {(ScriptedHit, "distance")}  # by which a hit is known again
 _JITTER = 1e-5  # of a vector's largest component, or of the number
-_LARGEST = 1e38  # beyond it a little more may be infinite
+_MAX_NUMBER = 1e38  # beyond it a little more may be infinite
 
 
 def _items(value: Value) -> tuple[Any, ...]:
@@ -98,7 +98,7 @@ def jittered(inputs: Inputs, sign: Callable[[], float]) -> Inputs:
     """Every number a little off; of single numbers, 0 stays 0."""
 
     def off(number: float, size: float) -> float:
-        if not abs(number) < _LARGEST:
+        if not abs(number) < _MAX_NUMBER:
             return number
         return f32(number + sign() * _JITTER * (max(1.0, size) if size else abs(number)))
 

@@ -15,7 +15,7 @@ from raysteps.watch.events import Key, Post
 
 _SEQUENCE = re.compile(r"\x1b(?:\[[0-9;?]*[ -/]*[@-~]|O.|.)?", re.DOTALL)  # arrows, function keys, Alt with a letter
 _LOOK_SECONDS = 0.2
-_LONGEST = 4  # letters that come at once; more were pasted, and by mistake
+_MAX_LETTERS = 4  # that come at once; more were pasted, and by mistake
 
 
 class Keyboard(Protocol):
@@ -29,7 +29,7 @@ class Keyboard(Protocol):
 def letters(text: str) -> list[str]:
     """What was typed: no arrows and function keys, which come as sequences, and nothing pasted."""
     text = _SEQUENCE.sub("", text)
-    if len(text) > _LONGEST:
+    if len(text) > _MAX_LETTERS:
         return []
     return [" " if letter in "\r\n" else letter for letter in text if letter.isprintable() or letter in "\r\n"]
 

@@ -22,7 +22,7 @@ from raysteps.watch.step_view import StepView, Tone, verdict
 
 _COLORS: dict[Tone, str] = {"good": "bold green", "bad": "bold red", "warn": "bold yellow", "plain": "bold"}
 _SIGNS: dict[Tone, str] = {"good": "✓", "bad": "✗", "warn": "!", "plain": "·"}
-_LONGEST = 600
+_MAX_CHARACTERS = 600
 _MAX_FAILED = 2
 
 KEYS = (
@@ -73,7 +73,7 @@ class TerminalView:
 
     def line(self, text: str, style: str = "") -> None:
         """Shortened, and in a terminal broken between words, so that the rest stands below the first word."""
-        text = shorten(text, _LONGEST)
+        text = shorten(text, _MAX_CHARACTERS)
         if not self.console.is_terminal:
             self.command(text, style)
             return
