@@ -24,7 +24,7 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-_LOOK_EVERY = 0.1
+_POLL_SECONDS = 0.1
 
 
 def try_lock(handle: int, *, shared: bool = False) -> bool:
@@ -44,7 +44,7 @@ def wait_for_lock(handle: int) -> None:
     """Until nobody else holds it."""
     if sys.platform == "win32":
         while not try_lock(handle):  # the waiting that Windows offers gives up after 10 seconds
-            time.sleep(_LOOK_EVERY)
+            time.sleep(_POLL_SECONDS)
     else:
         fcntl.flock(handle, fcntl.LOCK_EX)
 
@@ -213,13 +213,13 @@ def _files(folder: Path) -> list[str]:
 
 @dataclass(frozen=True)
 class OwnedFolder:
-    """One kind of them. `what` names it; with `marked` the list tells the files' content, too, and a file that somebody
+    """One kind of them. `what` names it; with `hashed` the list tells the files' content, too, and a file that somebody
     changed is refused rather than lost."""
 
     what: str
     list_name: str
     schema: str
-    marked: bool = False
+    hashed: bool = False
 
     def _list(self, out: Path) -> dict[str, Any] | None:
         try:
@@ -238,20 +238,20 @@ class OwnedFolder:
         paths = {str(name): (out / str(name)).resolve() for name in document["files"]}
         return [name for name, path in paths.items() if path.is_relative_to(out.resolve()) and not path.is_dir()]
 
-    def _marks(self, out: Path) -> dict[str, list[str]]:
-        """What the content of these files may be: one, or two where writing was interrupted."""
-        marks = (self._list(out) or {}).get("marks")
-        return {name: mark if isinstance(mark, list) else [mark] for name, mark in dict(marks or {}).items()}
+    def _hashes(self, out: Path) -> dict[str, list[str]]:
+        """Of the content that a file may have: one, or two where writing was interrupted."""
+        hashes = (self._list(out) or {}).get("marks")
+        return {name: one if isinstance(one, list) else [one] for name, one in dict(hashes or {}).items()}
 
     def check(self, out: Path) -> None:
         """A usage error unless it is a new or an empty folder, or an older one of the kind, which nobody changed."""
         names = self._listed(out)
         if out.is_file() or (out.is_dir() and any(out.iterdir()) and names is None):
             raise UsageError(f"{out}: holds something else; expected a new or an empty folder, or an older {self.what}")
-        marks = self._marks(out)
+        hashes = self._hashes(out)
         for name in names or ():
             path = out / name
-            if name in marks and path.is_file() and content_hash(path.read_bytes()) not in marks[name]:
+            if name in hashes and path.is_file() and content_hash(path.read_bytes()) not in hashes[name]:
                 raise UsageError(
                     f"{path}: was changed since the {self.what} was written and would be lost; take it away"
                 )
@@ -261,27 +261,27 @@ class OwnedFolder:
         interrupted."""
         out.mkdir(parents=True, exist_ok=True)
         old, files = self._listed(out) or [], _files(new)
-        rooms = {parent.as_posix() for name in files for parent in Path(name).parents}
+        folders = {parent.as_posix() for name in files for parent in Path(name).parents}
         strange = [name for name in files if name not in old and (out / name).exists()]
-        strange += sorted(name for name in rooms if name not in old and (out / name).is_file())
+        strange += sorted(name for name in folders if name not in old and (out / name).is_file())
         if strange:
             raise UsageError(
                 f"{out / strange[0]}: is not of an older {self.what}, and the new one has such a file; take it away"
             )
-        marks = {name: content_hash((new / name).read_bytes()) for name in files} if self.marked else {}
-        before = self._marks(out)
-        either = before | {name: [*before.get(name, []), mark] for name, mark in marks.items()}
+        hashes = {name: content_hash((new / name).read_bytes()) for name in files} if self.hashed else {}
+        before = self._hashes(out)
+        either = before | {name: [*before.get(name, []), one] for name, one in hashes.items()}
         self._write(out, sorted({*old, *files}), either)
         for name in old:
             (out / name).unlink(missing_ok=True)
         for name in sorted(files, key=lambda name: name == last):
             (out / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.move(new / name, out / name)
-        for room in sorted({parent for name in old for parent in Path(name).parents}, reverse=True):
-            if (out / room).is_dir() and not any((out / room).iterdir()):
-                (out / room).rmdir()
-        self._write(out, files, marks)
+        for folder in sorted({parent for name in old for parent in Path(name).parents}, reverse=True):
+            if (out / folder).is_dir() and not any((out / folder).iterdir()):
+                (out / folder).rmdir()
+        self._write(out, files, hashes)
 
-    def _write(self, out: Path, files: list[str], marks: Mapping[str, str | list[str]]) -> None:
+    def _write(self, out: Path, files: list[str], hashes: Mapping[str, str | list[str]]) -> None:
         document = {"schema": self.schema, "files": files}
-        write_json(out / self.list_name, document | ({"marks": dict(marks)} if self.marked else {}))
+        write_json(out / self.list_name, document | ({"marks": dict(hashes)} if self.hashed else {}))

@@ -79,7 +79,7 @@ class PipeReader:
 
 
 _MEGABYTE = 1 << 20
-_LOOK_EVERY = 0.2
+_POLL_SECONDS = 0.2
 _LEFT_BEHIND_SECONDS = 1.0  # for what is still in the pipes of a program that has ended
 # How Windows tells what ended a program: the names that the same trouble has elsewhere.
 _WINDOWS_ENDINGS = {
@@ -135,7 +135,7 @@ _MEANINGS = {
 def _has_ended_in_time(process: "subprocess.Popen[bytes]", pipes: Sequence[PipeReader], deadline: float) -> bool:
     """Waits until the pipes are closed and the program is gone, or only the program, or until time is up."""
     for pipe in pipes:
-        while not pipe.is_at_end(min(_LOOK_EVERY, deadline - time.monotonic())):
+        while not pipe.is_at_end(min(_POLL_SECONDS, deadline - time.monotonic())):
             if process.poll() is not None:
                 return True
             if time.monotonic() > deadline:

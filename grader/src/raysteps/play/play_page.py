@@ -385,7 +385,7 @@ class PlayPage:
 
 # Published, on any web space.
 
-_PUBLISHED = OwnedFolder("page to work in", ".raysteps-page.json", "raysteps/page/v1", marked=True)
+_PUBLISHED = OwnedFolder("page to work in", ".raysteps-page.json", "raysteps/page/v1", hashed=True)
 
 
 def refuse_to_publish(project: Project, out: Path) -> None:

@@ -119,7 +119,7 @@ def reap(pid: int, handle: int) -> float:
     return used.ru_utime + used.ru_stime
 
 
-_LOOK_EVERY = 0.05
+_POLL_SECONDS = 0.05
 _DYING_SECONDS = 2.0
 _FINISHED_SECONDS = 0.5  # for a task that nobody asks any more, to end by itself
 _MEGABYTE = 1 << 20
@@ -209,13 +209,13 @@ class _Watch:
 
     def _listen(self, selector: selectors.BaseSelector) -> None:
         """Until the process has ended."""
-        look_at = time.monotonic() + _LOOK_EVERY
+        look_at = time.monotonic() + _POLL_SECONDS
         last = self._start + self._limits.wall_seconds
         while not self._has_ended():
             now = time.monotonic()
             if now >= look_at or now > last:
                 self._look(now, last)
-                look_at = time.monotonic() + _LOOK_EVERY
+                look_at = time.monotonic() + _POLL_SECONDS
             for key, _ in selector.select(max(0.001, min(look_at, last + 0.001) - now)):
                 if key.fd in self._kept:
                     self._read(key.fd, selector)
@@ -228,7 +228,7 @@ class _Watch:
         """What is left in the pipes; a process that escaped the killing does not hold the grader for long."""
         until = time.monotonic() + _DYING_SECONDS
         while selector.get_map() and (left := until - time.monotonic()) > 0:
-            for key, _ in selector.select(min(left, _LOOK_EVERY)):
+            for key, _ in selector.select(min(left, _POLL_SECONDS)):
                 if key.fd in self._kept:
                     self._read(key.fd, selector)
                 else:

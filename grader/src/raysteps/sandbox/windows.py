@@ -106,7 +106,7 @@ else:
 
 
 _MEGABYTE = 1 << 20
-_LOOK_EVERY = 0.05
+_POLL_SECONDS = 0.05
 _DYING_SECONDS = 2.0
 _OF_THE_SYSTEM = ("COMSPEC", "NUMBER_OF_PROCESSORS", "PATH", "PATHEXT", "SYSTEMDRIVE", "SYSTEMROOT", "WINDIR")
 
@@ -165,7 +165,7 @@ def _wait(process: "subprocess.Popen[bytes]", job: Job, start: float, task: Task
     while True:
         left = start + limits.wall_seconds - time.monotonic()
         try:
-            process.wait(min(_LOOK_EVERY, max(0.0, left)))
+            process.wait(min(_POLL_SECONDS, max(0.0, left)))
         except subprocess.TimeoutExpired:
             if left <= 0 or task.abandoned.is_set():
                 return "wall"
