@@ -19,6 +19,7 @@ from rich.table import Table
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import write_if_changed
 from raysteps.common.platform import processor_count
+from raysteps.common.text import print_plain
 from raysteps.course.manifest import Step, choose, kit_steps
 from raysteps.course.mutants import reference_source, replaced_once
 from raysteps.course.project import Project
@@ -187,7 +188,7 @@ def _print(all_rates: Sequence[StepRates], seconds: float, console: Console) -> 
     console.print(table)
     for rates in all_rates:
         if rates.right.wrong:
-            console.print(f"{rates.step.id}: {rates.right.first}", markup=False, highlight=False, soft_wrap=True)
+            print_plain(console, f"{rates.step.id}: {rates.right.first}")
         for tally in rates.planted.values():
             if tally.wrong < tally.grades:
                 console.print(f"{rates.step.id}: a planted bias was not found in every grade", soft_wrap=True)

@@ -9,11 +9,10 @@ from functools import partial
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_bytes
-from raysteps.common.text import count
+from raysteps.common.text import count, print_plain
 from raysteps.course.project import Project
 from raysteps.images.compare import Pixels
 from raysteps.toolchain.build_kit import build_kit
@@ -176,7 +175,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if arguments.check:
         old = out_of_date(project, say, arguments.names)
         for path in old:
-            console.print(f"{escape(path)} is not what ./raysteps figures makes", soft_wrap=True, highlight=False)
+            print_plain(console, f"{path} is not what ./raysteps figures makes")
         if not old:
             console.print(f"{count(len(_chosen(arguments.names)), 'figure')} up to date", highlight=False)
         return 1 if old else 0
@@ -186,8 +185,8 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         drawn = _renewed(project, kit, figure, say)
         if drawn is not None:
             _write(project.root / figure.path, drawn)
-            console.print(f"{escape(figure.path)} written", soft_wrap=True, highlight=False)
+            print_plain(console, f"{figure.path} written")
     for path in [] if arguments.names else _nobodys(project):
         (project.root / path).unlink()
-        console.print(f"{escape(path)} removed: no figure makes it", soft_wrap=True, highlight=False)
+        print_plain(console, f"{path} removed: no figure makes it")
     return 0

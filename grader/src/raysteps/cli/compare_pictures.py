@@ -4,10 +4,10 @@ import argparse
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import PNG_SIGNATURE
+from raysteps.common.text import print_plain
 from raysteps.course.project import Project
 from raysteps.images.compare import (
     TOLERANCE,
@@ -72,5 +72,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
             write_png(difference(mine, reference), arguments.out)
         except OSError as error:
             raise UsageError(f"{arguments.out}: cannot be written: {reason(error)}") from error
-        console.print(f"Difference: {escape(str(arguments.out))}", soft_wrap=True, highlight=False)
+        print_plain(console, f"Difference: {arguments.out}")
     return 1 if wrong else 0

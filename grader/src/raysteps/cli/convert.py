@@ -10,7 +10,7 @@ from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import content_hash, refuse_to_write
-from raysteps.common.text import count
+from raysteps.common.text import count, print_plain
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project, is_of_part_two
 from raysteps.models import ENDINGS, TexturePlace
@@ -63,7 +63,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     refuse_to_write(out)
     for note in _write(arguments.model, out, z_up=arguments.up == "z", textures=textures or "beside"):
         console.print(escape(note), highlight=False)
-    console.print(f"Scene: {escape(os.fspath(out))}", soft_wrap=True, highlight=False)
+    print_plain(console, f"Scene: {os.fspath(out)}")
     return 0
 
 

@@ -5,13 +5,12 @@ import sys
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 
 from raysteps.cli.grade import GradeOptions, grade
 from raysteps.common import process
 from raysteps.common.errors import GraderFault
 from raysteps.common.files import usable_folder
-from raysteps.common.text import number
+from raysteps.common.text import number, print_plain
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project, generated
 from raysteps.report.terminal import short_path
@@ -57,7 +56,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     console.print("Rendering the sphereflake with what the course has after each step:")
     for step in kit.steps:
         path = _render(kit.reference("raytrace"), scene, step, folder)
-        console.print(f"  {escape(short_path(path))}", soft_wrap=True, highlight=False)
+        print_plain(console, f"  {short_path(path)}")
     for sample in ("complete", "partial"):
         console.print(f"\nGrading the sample submission [bold]{sample}[/bold].")
         options = GradeOptions(project.samples / sample, folder / sample, details=sample == "partial")

@@ -9,14 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.markup import escape
 
 from raysteps.classroom.class_files import SUBMISSIONS, refuse_unwritten
 from raysteps.cli.give_back import SYSTEMS as WAYS_BACK
 from raysteps.cli.give_back import add_give_back_arguments, add_renamed_columns, give_back
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
-from raysteps.common.text import clean, count
+from raysteps.common.text import clean, count, print_plain
 from raysteps.course.manifest import STEPS_HELP, Step, chosen_steps, course_steps, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
@@ -94,7 +93,7 @@ def fill_gradebook(project: Project, arguments: argparse.Namespace, console: Con
             "Expected are the same ids, email addresses or names in both, such as by a --roster for grade-class"
         )
     write_out(arguments.out, sheet.filled(filled.changes))
-    console.print(f"{escape(str(arguments.out))}: {count(filled.graded, 'grade')}", soft_wrap=True, highlight=False)
+    print_plain(console, f"{arguments.out}: {count(filled.graded, 'grade')}")
     return 0
 
 

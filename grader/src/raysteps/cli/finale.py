@@ -17,7 +17,7 @@ from raysteps.cli.todo_steps import built_trees, unfinished
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import usable_folder, write_out
 from raysteps.common.platform import kit_command, own_command
-from raysteps.common.text import clean, count, join_and
+from raysteps.common.text import clean, count, join_and, print_plain
 from raysteps.common.text import size as shown_size
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project, is_of_part_two
@@ -151,7 +151,7 @@ def _check_resolution(scene: str) -> None:
 
 def _say_more(said: Sequence[str], console: Console) -> None:
     for line in said:
-        console.print(line, markup=False, highlight=False, soft_wrap=True)
+        print_plain(console, line)
 
 
 def _stations(

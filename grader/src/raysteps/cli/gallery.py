@@ -14,6 +14,7 @@ from rich.markup import escape
 from raysteps.cli import picture_size, square_number
 from raysteps.common.errors import UsageError
 from raysteps.common.files import usable_folder, write_out
+from raysteps.common.text import print_plain
 from raysteps.common.text import size as shown_size
 from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project
@@ -191,6 +192,6 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     path = out / "index.html"
     write_out(path, page)
     for note in _notes(entries, kit):
-        console.print(f"No picture of {note}", markup=False, highlight=False, soft_wrap=True)
+        print_plain(console, f"No picture of {note}")
     console.print(f"Gallery: {escape(short_path(path.resolve()))} ({shown_size(len(page))})", soft_wrap=True)
     return 0

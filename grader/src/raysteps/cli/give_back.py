@@ -14,7 +14,7 @@ from rich.table import Table
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import write_out
-from raysteps.common.text import clean, count, size
+from raysteps.common.text import clean, count, print_plain, size
 from raysteps.exports.give_back import (
     Deliveries,
     Undelivered,
@@ -195,7 +195,7 @@ def _print_others(console: Console, heading: str, others: list[Undelivered]) -> 
     if others:
         console.print(f"\n[bold]{heading}[/bold]")
         for line in _lines(others):
-            console.print(f"  {escape(line)}", soft_wrap=True, highlight=False)
+            print_plain(console, f"  {line}")
 
 
 def _dry_run(arguments: argparse.Namespace, console: Console, deliveries: Deliveries, options: MailOptions) -> int:
@@ -231,7 +231,7 @@ def _write_mbox(arguments: argparse.Namespace, console: Console, deliveries: Del
     if not amount:
         deliveries.given = []
         refuse_nobody(deliveries, arguments.results)
-    console.print(f"{escape(str(arguments.out))}: {count(amount, 'message')}", soft_wrap=True, highlight=False)
+    print_plain(console, f"{arguments.out}: {count(amount, 'message')}")
     return 0
 
 
@@ -305,7 +305,7 @@ def _end(console: Console, deliveries: Deliveries, had: list[Undelivered], sende
         if lines:
             console.print(f"\n[bold]{heading}[/bold]")
         for line in lines:
-            console.print(f"  {escape(clean(line))}", soft_wrap=True, highlight=False)
+            print_plain(console, f"  {clean(line)}")
     console.print(f"\n{count(outcome.sent, 'message')} sent, {len(outcome.refused)} refused", highlight=False)
     if outcome.stopped:
         raise UsageError(f"{outcome.stopped}. {count(outcome.sent, 'message')} sent; {_GO_ON}")

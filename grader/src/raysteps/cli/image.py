@@ -14,7 +14,7 @@ from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import usable_folder
 from raysteps.common.platform import quote_command
 from raysteps.common.process import run as ask
-from raysteps.common.text import clean, shorten
+from raysteps.common.text import clean, print_plain, shorten
 from raysteps.course.project import Project
 from raysteps.exports.autograders import BASE, grader_image, into_folder, students_image
 from raysteps.release.leaks import find_leaks
@@ -111,5 +111,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if code != 0:
         raise GraderFault(f"{engine} build ended with exit code {code}; the lines above say why")
     lines = _lines(arguments.tag, students=arguments.without_solutions).replace("docker run", f"{engine} run")
-    console.print(escape(lines), highlight=False, soft_wrap=True)
+    print_plain(console, lines)
     return 0

@@ -19,7 +19,7 @@ from raysteps.common import process
 from raysteps.common.documents import Malformed, parse, plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, refuse_to_write, write_out
-from raysteps.common.text import in_seconds, join_and, printable
+from raysteps.common.text import in_seconds, join_and, print_plain, printable
 from raysteps.course.manifest import Step, chosen_step, read_all_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.inspector.model import Record
@@ -198,7 +198,7 @@ def _tell_problem(project: Project, inspected: InspectResult, program: Path, opt
 def _write_json(arguments: argparse.Namespace, inspected: InspectResult, console: Console) -> None:
     if arguments.json is not None and inspected.record is not None:
         write_out(arguments.json, encoded(plain(inspected.record)))
-        console.print(f"Record: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
+        print_plain(console, f"Record: {arguments.json}")
 
 
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
@@ -281,7 +281,7 @@ def _write_html(
 ) -> None:
     if path is not None:
         write_page(record, reference, divergence, path, pictures)
-        console.print(f"Page: {escape(str(path))}", soft_wrap=True, highlight=False)
+        print_plain(console, f"Page: {path}")
 
 
 def compare(

@@ -4,7 +4,6 @@ import argparse
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 
 from raysteps.classroom.leaderboard import (
     leaderboard,
@@ -18,7 +17,7 @@ from raysteps.classroom.leaderboard import (
 from raysteps.common.documents import plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, write_out
-from raysteps.common.text import join_and
+from raysteps.common.text import join_and, print_plain
 from raysteps.course.manifest import Step, chosen_steps, course_steps, read_steps
 from raysteps.course.project import Project
 
@@ -71,5 +70,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     print_caption(console)
     if arguments.json is not None:
         write_out(arguments.json, encoded(plain(document)))
-        console.print(f"Ranking: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
+        print_plain(console, f"Ranking: {arguments.json}")
     return 0

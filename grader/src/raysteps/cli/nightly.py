@@ -28,7 +28,7 @@ from raysteps.cli.grade_class import add_grading_arguments, class_lock, read_opt
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason_and_place
 from raysteps.common.files import usable_folder
 from raysteps.common.platform import refuse_on_windows
-from raysteps.common.text import count, name_order
+from raysteps.common.text import count, name_order, print_plain
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
@@ -109,7 +109,7 @@ class _Night:
             self._print(text)
 
     def _print(self, text: str) -> None:
-        self.console.print(text, markup=False, highlight=False, soft_wrap=True)
+        print_plain(self.console, text)
 
     def round(self) -> int:
         """0; 4 when the grader failed with some, 130 when it was interrupted."""
@@ -268,8 +268,8 @@ def run(
             try:
                 code = night.round()
             except RaystepsError as error:  # a roster that is being edited, a grade-class beside it: the next may do
-                console.print(f"raysteps: {error}", markup=False, highlight=False, soft_wrap=True)
+                print_plain(console, f"raysteps: {error}")
             except OSError as error:  # a disk that is full, a share that is away
                 told = f"raysteps: this look did not come to its end: {reason_and_place(error)}; the next one goes on"
-                console.print(told, markup=False, highlight=False, soft_wrap=True)
+                print_plain(console, told)
     return code

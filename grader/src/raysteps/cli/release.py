@@ -14,7 +14,7 @@ from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.platform import kit_command
-from raysteps.common.text import count, join_and, tenths
+from raysteps.common.text import count, join_and, print_plain, tenths
 from raysteps.course.manifest import Step, choose, course_steps, of_other_parts, read_steps, steps_words
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
@@ -102,7 +102,7 @@ def _check_folder(secrets: Secrets, folder: Path, console: Console) -> int:
     if not leaks:
         console.print(f"No solution was found in {'what was searched' if left_out else 'it'}.")
     if left_out:
-        _say(
+        print_plain(
             console,
             f"Not searched: {left_out}. Setting up and trying a kit makes these; they are no part of a release and "
             "may hold anything. Take them away and check again before you hand this folder out",
@@ -110,22 +110,18 @@ def _check_folder(secrets: Secrets, folder: Path, console: Console) -> int:
     return 1 if leaks or left_out else 0
 
 
-def _say(console: Console, text: str) -> None:
-    console.print(escape(text), highlight=False, soft_wrap=True)
-
-
 def _chosen(project: Project, names: list[str], console: Console) -> list[Step]:
     if not names:
         steps = due_steps(project, date.today())
         later = [step for step in course_steps(project) if step not in steps]
         if later:
-            _say(
+            print_plain(
                 console, f"not yet given out, by {read_course(project).place('steps')}: {join_and(steps_words(later))}"
             )
         return steps
     steps = first_steps(names, read_steps(project), others=of_other_parts(project))
     if len(choose(steps, names)) < len(steps):
-        _say(console, f"steps {steps_words(steps)[0]}: a kit begins with step {steps[0].number}")
+        print_plain(console, f"steps {steps_words(steps)[0]}: a kit begins with step {steps[0].number}")
     return steps
 
 
@@ -179,7 +175,7 @@ def write(
     if not written:
         console.print("Nothing was written.")
         return []
-    _say(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {target}")
+    print_plain(console, f"{count(len(steps), 'step')}, no solution in any file of the release: {target}")
     return steps
 
 
@@ -195,12 +191,16 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     if not steps:
         return 1
     if page:
-        _say(console, f"The page to work in, with the same steps: {arguments.play}. Put this folder on any web space.")
+        print_plain(
+            console, f"The page to work in, with the same steps: {arguments.play}. Put this folder on any web space."
+        )
     worth = tenths(sum(step.points for step in steps if not step.bonus))
     bonus = tenths(sum(step.points for step in steps if step.bonus))
     more = f" and up to {bonus} more as a bonus" if any(step.bonus for step in steps) else ""
-    _say(console, f"Grade what comes back, of {worth} points{more}: {line_to_grade(steps, course_steps(project))}")
+    print_plain(
+        console, f"Grade what comes back, of {worth} points{more}: {line_to_grade(steps, course_steps(project))}"
+    )
     kept = [name for name in FOLDERS if (out / name).is_dir()]
     if kept:
-        _say(console, f"Kept from before, and not searched: {join_and(kept)}")
+        print_plain(console, f"Kept from before, and not searched: {join_and(kept)}")
     return 0

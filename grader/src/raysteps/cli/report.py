@@ -4,10 +4,10 @@ import argparse
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.platform import own_command
+from raysteps.common.text import print_plain
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import Project
 from raysteps.progress.own_check import own_progress
@@ -65,5 +65,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         raise UsageError(f"there is no check yet that could be shown: expected its {RESULTS}; {own_command()} check")
     page = _class_page(place) if project.has_reference else None
     page = page or _student_page(project, place)
-    console.print(f"Report: {escape(short_path(page.resolve()))}", soft_wrap=True, highlight=False)
+    print_plain(console, f"Report: {short_path(page.resolve())}")
     return 0

@@ -16,7 +16,7 @@ from rich.table import Table
 from raysteps.common.documents import checked, plain
 from raysteps.common.errors import UsageError
 from raysteps.common.files import encoded, refuse_to_write, write_out
-from raysteps.common.text import clean, count, printable
+from raysteps.common.text import clean, count, print_plain, printable
 from raysteps.course.manifest import STEPS_HELP, Step, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
@@ -324,7 +324,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     _print(console, handed, shown, compared)
     for at, step in hardly_read:
         console.print(f"{printable(handed[at].name)}, {step}: {_HARDLY_READ}", markup=False, highlight=False)
-    console.print(f"Page: {escape(str(arguments.out))}", soft_wrap=True, highlight=False)
+    print_plain(console, f"Page: {arguments.out}")
     if arguments.json is not None:
-        console.print(f"Pairs: {escape(str(arguments.json))}", soft_wrap=True, highlight=False)
+        print_plain(console, f"Pairs: {arguments.json}")
     return 0

@@ -4,11 +4,10 @@ import argparse
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import content_hash
-from raysteps.common.text import count, join_and, join_some
+from raysteps.common.text import count, join_and, join_some, print_plain
 from raysteps.course.project import Project
 from raysteps.updater.release_list import PLACE, Release, own_files, read_release
 from raysteps.updater.source import Source, open_source
@@ -26,44 +25,42 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--course-changed", action="store_true", help="take in the kit of a course of another name")
 
 
-def _say(console: Console, text: str) -> None:
-    console.print(escape(text), highlight=False, soft_wrap=True)
-
-
 def _tell_own(console: Console, changes: Changes) -> None:
     """What concerns the student's own files, and files of the kit that were changed."""
     for path in changes.kept:
-        _say(console, f"{path.rpartition('.')[0]} was not as released. It is now; what it was is kept as {path}")
+        print_plain(console, f"{path.rpartition('.')[0]} was not as released. It is now; what it was is kept as {path}")
     for path in changes.outdated:
         name = path.rpartition(".")[0]
-        _say(console, f"The kit has no {name} any more. Yours was not as released, and is kept as {path}")
+        print_plain(console, f"The kit has no {name} any more. Yours was not as released, and is kept as {path}")
     for path in changes.left:
-        _say(console, f"The kit has no {path} any more; yours is still there")
+        print_plain(console, f"The kit has no {path} any more; yours is still there")
     for path in changes.put_back:
-        _say(console, f"{path} was not there; the stub is put back")
+        print_plain(console, f"{path} was not there; the stub is put back")
     for paths, words in ((changes.stubs, "its stub is another one"), (changes.met, "the kit has a stub for it")):
         for path in paths:
             stub = f"grader/stubs/{path.removeprefix('steps/')}"
-            _say(console, f"{path} is as you left it, but {words} now: compare with {stub}")
+            print_plain(console, f"{path} is as you left it, but {words} now: compare with {stub}")
 
 
 def _tell_kept(console: Console, names: list[str]) -> None:
     """The student's own, by name as far as there is room."""
     words = join_some(names, _MAX_NAMED) if names else "there are none yet"
-    _say(console, f"Your own files are as they were: {words}.")
+    print_plain(console, f"Your own files are as they were: {words}.")
 
 
 def _tell(console: Console, changes: Changes, old: Release, new: Release) -> None:
     if changes.any:
         numbers = ((changes.replaced, "replaced"), (changes.added, "added"), (changes.removed, "removed"))
-        _say(console, f"Files of the kit: {', '.join(f'{len(paths)} {word}' for paths, word in numbers)}.")
+        print_plain(console, f"Files of the kit: {', '.join(f'{len(paths)} {word}' for paths, word in numbers)}.")
     else:
-        _say(console, "The kit is up to date: nothing had to be changed.")
+        print_plain(console, "The kit is up to date: nothing had to be changed.")
     added, gone = ([step for step in one.steps if step not in other.steps] for one, other in ((new, old), (old, new)))
     if added:
-        _say(console, f"New: {join_and(added)}.")
+        print_plain(console, f"New: {join_and(added)}.")
     if gone:
-        _say(console, f"This kit has no {join_and(gone)}. If it is an older one, update once more with the newest.")
+        print_plain(
+            console, f"This kit has no {join_and(gone)}. If it is an older one, update once more with the newest."
+        )
     _tell_own(console, changes)
 
 
@@ -99,5 +96,5 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         _tell(console, changes, old, source.release)
         told = {*changes.kept, *changes.outdated}
         _tell_kept(console, [name for name in own_files(root, source.release) if name not in told])
-        _say(console, f"{source.release.course}: {now if now == before else f'from {before} to {now}'}.")
+        print_plain(console, f"{source.release.course}: {now if now == before else f'from {before} to {now}'}.")
     return 0

@@ -5,6 +5,10 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 # Signs that turn the writing direction, that take no room, or that are halves of surrogates.
 _UNSEEN = re.compile(
@@ -209,3 +213,8 @@ def delimiter_of(text: str) -> str:
         elif not quoted and letter in seen:
             seen[letter] += 1
     return max(DELIMITERS, key=lambda one: seen[one])
+
+
+def print_plain(console: "Console", text: str) -> None:
+    """As it is: nothing in it is markup, and only the terminal breaks its lines."""
+    console.print(text, markup=False, highlight=False, soft_wrap=True)

@@ -12,7 +12,7 @@ from rich.markup import escape
 
 from raysteps.common.errors import UsageError
 from raysteps.common.files import normalized_line_ends, write_bytes
-from raysteps.common.text import count, printable, shorten
+from raysteps.common.text import count, print_plain, printable, shorten
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub
@@ -75,7 +75,7 @@ def put_back(project: Project, step: Step) -> Path | None:
 
 def print_loss(console: Console, lost: LostLines, name: str) -> None:
     """What is at stake, before anything is done."""
-    console.print(f"{escape(name)}: {lost}.", highlight=False, soft_wrap=True)
+    print_plain(console, f"{name}: {lost}.")
     for line in lost.own[:_MAX_SHOWN]:
         console.print(f"  [yellow]{escape(shorten(line, _WIDEST))}[/yellow]", highlight=False, soft_wrap=True)
     if len(lost.own) > _MAX_SHOWN:
@@ -84,9 +84,9 @@ def print_loss(console: Console, lost: LostLines, name: str) -> None:
 
 def print_done(console: Console, name: str, kept: Path | None) -> None:
     """What was done, and where the old file is."""
-    console.print(f"{escape(name)} is the stub again.", highlight=False, soft_wrap=True)
+    print_plain(console, f"{name} is the stub again.")
     if kept is not None:
-        console.print(f"The old file is kept: {escape(str(kept))}", highlight=False, soft_wrap=True)
+        print_plain(console, f"The old file is kept: {kept}")
 
 
 def _ask(question: str) -> bool:
@@ -103,7 +103,7 @@ def reset(project: Project, step: Step, console: Console, *, yes: bool, confirm:
         raise UsageError(f"{name}: is a folder; expected a file. Move the folder away, then reset the step again")
     lost = lost_lines(project, step)
     if lost is None and own_file(project, step).is_file():
-        console.print(f"{escape(name)} is the stub already.", highlight=False, soft_wrap=True)
+        print_plain(console, f"{name} is the stub already.")
         return 0
     if lost is not None and not yes:
         if confirm is None and not sys.stdin.isatty():

@@ -16,7 +16,7 @@ from rich.table import Table
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.common.platform import own_command
-from raysteps.common.text import join_and, tenths
+from raysteps.common.text import join_and, print_plain, tenths
 from raysteps.course.manifest import Step, chosen_step, course_steps, of_other_parts, taken_in
 from raysteps.course.project import Project
 from raysteps.course.stubs import pristine_stub, same_code, tokens, unfinished_functions
@@ -292,5 +292,5 @@ def next_step(project: Project, console: Console) -> int:
     if standing.is_broken:
         lines = [("file", shown(project, step, step.file)), ("type", _to_type(own, standing))]
     for label, text in lines:
-        console.print(f"  {label:<6} {escape(text)}", highlight=False, soft_wrap=True)
+        print_plain(console, f"  {label:<6} {text}")
     return 0
