@@ -13,7 +13,7 @@ from raysteps.common.files import write_if_changed
 from raysteps.course.manifest import Step, read_step
 from raysteps.course.mutants import Mutant, read_alternatives, read_mutants, reference_source, replaced_once
 from raysteps.course.project import Project
-from raysteps.course.stubs import make_stub, stub_for, without_markers
+from raysteps.course.stubs import make_stub, stub_for
 
 Kind = Literal["stub", "reference", "mutant", "alternative", "half"]
 
@@ -126,10 +126,6 @@ def half_done(project: Project, step: Step) -> list[Entrant]:
 # The two sample submissions, made from the solutions so that they never drift.
 
 
-def _solved(project: Project, step: Step) -> str:
-    return without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
-
-
 def _with_mistake(source: str, mistake: dict[str, Any]) -> str:
     find = str(mistake["find"])
     return replaced_once(source, find, str(mistake["replace"]), f"grader/samples/partial.toml: '{find}'")
@@ -141,7 +137,7 @@ def sample_files(project: Project, steps: list[Step]) -> dict[Path, str]:
     mistakes = {str(mistake["step"]): mistake for mistake in plan["mistakes"]}
     files: dict[Path, str] = {}
     for step in steps:
-        solved = _solved(project, step)
+        solved = reference_source(project, step)
         files[project.samples / "complete" / "steps" / step.path] = solved
         if step.id in mistakes:
             partial = _with_mistake(solved, mistakes[step.id])

@@ -24,10 +24,10 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.platform import processor_count, refuse_on_windows
 from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import Step, choose, read_steps
+from raysteps.course.mutants import reference_source
 from raysteps.course.project import Project
 from raysteps.course.settings import FILE as COURSE
 from raysteps.course.settings import read_course
-from raysteps.course.stubs import without_markers
 from raysteps.exports.autograders import kit_files
 from raysteps.report.terminal import progress
 from raysteps.toolchain.build_kit import build_kit
@@ -152,8 +152,7 @@ def _copy_with_solutions(project: Project, root: Path) -> Project:
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(file.source, target)
     for step in read_steps(project):
-        source = without_markers((project.solutions / step.path).read_text(encoding="utf-8"))
-        (root / "steps" / step.path).write_text(source, encoding="utf-8")
+        (root / "steps" / step.path).write_text(reference_source(project, step), encoding="utf-8")
     settled = read_course(project).path
     if settled is not None:
         shutil.copy(settled, root / COURSE)

@@ -16,9 +16,9 @@ from rich.console import Console
 
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step, choose, kit_steps
+from raysteps.course.mutants import reference_source
 from raysteps.course.project import Project
 from raysteps.course.settings import COURSE_VARIABLE
-from raysteps.course.stubs import without_markers
 from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer
 from raysteps.toolchain.cmake import release_tree
@@ -165,7 +165,7 @@ def bench_play(project: Project, names: list[str], rounds: int, console: Console
             for step in steps:
                 page.evaluate("number => { location.hash = number; }", step.number)
                 _drawn(page, step)
-                text = without_markers((project.solutions / step.path).read_text("utf-8"))
+                text = reference_source(project, step)
                 first, *later = [_drawn(page, step, f"{text}// save {at}\n") for at in range(1 + rounds)]
                 rows.append(SaveRow(step.id, first, Spread.of(later)))
                 console.print(f"{step.id}: {first:.2f} s, then {rows[-1].later.median:.2f} s")

@@ -78,6 +78,14 @@ class PipeReader:
         return bytes(self._kept)
 
 
+def drained(pipes: Sequence[PipeReader], seconds: float) -> list[str]:
+    """What a program that has ended said: of what is still in its pipes, as much as comes in that time."""
+    until = time.monotonic() + seconds
+    for pipe in pipes:
+        pipe.is_at_end(until - time.monotonic())
+    return [pipe.bytes().decode("utf-8", "replace") for pipe in pipes]
+
+
 _MEGABYTE = 1 << 20
 _POLL_SECONDS = 0.2
 _LEFT_BEHIND_SECONDS = 1.0  # for what is still in the pipes of a program that has ended
@@ -174,8 +182,5 @@ def run(
         kill_process_group(process)
         code = process.wait()
         _running.discard(process)
-    until = time.monotonic() + _LEFT_BEHIND_SECONDS
-    for pipe in pipes:
-        pipe.is_at_end(until - time.monotonic())
-    out, err = (pipe.bytes().decode("utf-8", "replace") for pipe in pipes)
+    out, err = drained(pipes, _LEFT_BEHIND_SECONDS)
     return Outcome(code, timed_out=not in_time, stdout=out, stderr=err, seconds=time.monotonic() - start)

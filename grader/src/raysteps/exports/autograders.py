@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 from importlib.resources import files
 from pathlib import Path, PurePosixPath
+from typing import Literal
 
 from raysteps import __version__
 from raysteps.bootstrap.requirements import CMAKE, COMPILER, HIGHWAY, LIBRARIES, NINJA, SANDBOX, VENV, Requirement
@@ -58,10 +59,13 @@ def as_zip(members: Sequence[Member]) -> bytes:
     return buffer.getvalue()
 
 
-def as_tar(members: Sequence[Member]) -> bytes:
-    """A plain tar."""
+TarMode = Literal["w", "w:gz", "w:xz", "w:bz2"]
+
+
+def as_tar(members: Sequence[Member], mode: TarMode = "w") -> bytes:
+    """A plain tar, or one that is compressed."""
     buffer = io.BytesIO()
-    with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as archive:
+    with tarfile.open(fileobj=buffer, mode=mode, format=tarfile.PAX_FORMAT) as archive:
         for member in members:
             info = tarfile.TarInfo(member.name)
             info.size, info.mode = len(member.data), member.mode

@@ -1,8 +1,6 @@
 """Gives the reports of a graded class back: who gets what, and the archives that Moodle and Canvas take."""
 
-import io
 import re
-import tarfile
 from collections import Counter, defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,7 +13,7 @@ from raysteps.common.errors import UsageError, reason
 from raysteps.common.platform import kit_command
 from raysteps.common.text import clean, did_you_mean, join_and
 from raysteps.course.manifest import Step
-from raysteps.exports.autograders import Member, as_tar, as_zip
+from raysteps.exports.autograders import Member, TarMode, as_tar, as_zip
 from raysteps.exports.class_results import GradedStudent, Person, match, number_at_end, read_class, results_of
 from raysteps.results.class_model import ClassResults
 from raysteps.results.model import Results
@@ -196,24 +194,17 @@ def moodle_zip(deliveries: Deliveries, people: Sequence[Person] | None) -> bytes
 # What Canvas takes under "Re-Upload Submissions" of an assignment: files that are called as in the download. It shows
 # each under the name that the student gave it, and so the reports come in an archive of the same kind.
 
-_TAR_FORMS = {
-    ".tar.gz": "gz", ".tgz": "gz", ".tar.xz": "xz", ".txz": "xz", ".tar.bz2": "bz2", ".tbz2": "bz2",
+_TAR_MODES: dict[str, TarMode] = {
+    ".tar": "w", ".tar.gz": "w:gz", ".tgz": "w:gz", ".tar.xz": "w:xz", ".txz": "w:xz", ".tar.bz2": "w:bz2",
+    ".tbz2": "w:bz2",
 }  # fmt: skip
 
 
 def packed(entry: str, members: Sequence[Member]) -> bytes:
     """In the form that the ending says; what was unpacked already was a zip most likely."""
     lower = entry.lower()
-    form = next((form for ending, form in _TAR_FORMS.items() if lower.endswith(ending)), "")
-    if not form:
-        return as_tar(members) if lower.endswith(".tar") else as_zip(members)
-    buffer = io.BytesIO()
-    with tarfile.open(fileobj=buffer, mode=f"w:{form}") as archive:  # type: ignore[call-overload]
-        for member in members:
-            info = tarfile.TarInfo(member.name)
-            info.size, info.mode = len(member.data), member.mode
-            archive.addfile(info, io.BytesIO(member.data))
-    return buffer.getvalue()
+    mode = next((mode for ending, mode in _TAR_MODES.items() if lower.endswith(ending)), None)
+    return as_zip(members) if mode is None else as_tar(members, mode)
 
 
 _NOT_OF_CANVAS = "what was handed in is not named as in a download of Canvas, such as leeann_4711_815_steps.zip"

@@ -384,6 +384,13 @@ class TokenReader:
         self._words = line.split()
         self._next = 0
 
+    def _take(self, size: int) -> list[str]:
+        found = self._words[self._next : self._next + size]
+        if len(found) < size:
+            raise ProtocolError("the answer is too short")
+        self._next += size
+        return found
+
     def word(self) -> str:
         if self._next >= len(self._words):
             raise ProtocolError("the answer is too short")
@@ -403,10 +410,7 @@ class TokenReader:
 
     def wholes(self, size: int, low: int, high: int) -> tuple[int, ...]:
         """Many at once."""
-        found = self._words[self._next : self._next + size]
-        if len(found) < size:
-            raise ProtocolError("the answer is too short")
-        self._next += size
+        found = self._take(size)
         try:
             numbers = tuple(int(word) if len(word) <= _MAX_DIGITS else low - 1 for word in found)
         except ValueError:
@@ -429,11 +433,7 @@ class TokenReader:
 
     def reals(self, size: int) -> Numbers:
         """Many at once."""
-        found = self._words[self._next : self._next + size]
-        if len(found) < size:
-            raise ProtocolError("the answer is too short")
-        self._next += size
-        return _reals(found)
+        return _reals(self._take(size))
 
     def rows(self, width: int, most: int) -> Numbers:
         """All that is left, so many numbers in each row; what comes after `most` rows stays."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
+from typing import Generic, Protocol, TypeVar
 
 from raysteps.common.text import count
 from raysteps.judge.answers import Answer, TooMuchWork, first
@@ -33,14 +33,39 @@ class BvhSource(TreeSource):
 
 
 @dataclass(frozen=True)
-class Rays:
-    rays: tuple[Ray, ...]
+class RaySegment:
+    """A ray up to a distance."""
+
+    ray: Ray
+    distance: float
+
+    def numbers(self) -> list[Number]:
+        return [*self.ray.numbers(), self.distance]
+
+    def words(self) -> str:
+        return f"{self.ray.words()} up to {text(self.distance)}"
+
+
+_Ray = TypeVar("_Ray", Ray, RaySegment)
+
+
+@dataclass(frozen=True)
+class _ManyRays(Generic[_Ray]):
+    rays: tuple[_Ray, ...]
 
     def numbers(self) -> list[Number]:
         return [len(self.rays), *(number for ray in self.rays for number in ray.numbers())]
 
     def words(self) -> str:
         return "; ".join(ray.words() for ray in self.rays[:2]) + ("; and more" if len(self.rays) > 2 else "")
+
+
+class Rays(_ManyRays[Ray]):
+    """Each without an end."""
+
+
+class RaySegments(_ManyRays[RaySegment]):
+    """Each up to a distance of its own."""
 
 
 @dataclass(frozen=True)
@@ -171,31 +196,6 @@ OCCLUSIONS: Answer[tuple[Occlusion, ...]] = Answer(
 
 _ALL_ASKED = 0.9  # no tree at all, or a single leaf: a poor tree spares the rays more than that
 _MAX_TIMES = 2.0  # what the reference asks, in a tree that is given
-
-
-@dataclass(frozen=True)
-class RaySegment:
-    """A ray up to a distance."""
-
-    ray: Ray
-    distance: float
-
-    def numbers(self) -> list[Number]:
-        return [*self.ray.numbers(), self.distance]
-
-    def words(self) -> str:
-        return f"{self.ray.words()} up to {text(self.distance)}"
-
-
-@dataclass(frozen=True)
-class RaySegments:
-    rays: tuple[RaySegment, ...]
-
-    def numbers(self) -> list[Number]:
-        return [len(self.rays), *(number for segment in self.rays for number in segment.numbers())]
-
-    def words(self) -> str:
-        return "; ".join(segment.words() for segment in self.rays[:2]) + ("; and more" if len(self.rays) > 2 else "")
 
 
 def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int]) -> str:

@@ -10,7 +10,7 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 
 from raysteps.common.errors import GraderFault
-from raysteps.common.process import Outcome, PipeReader, kill_process_group, new_session
+from raysteps.common.process import Outcome, PipeReader, drained, kill_process_group, new_session
 from raysteps.sandbox.task import Input, Isolation, LimitHit, Task, TaskResult
 from raysteps.sandbox.task_dir import PathMap
 
@@ -150,10 +150,7 @@ class UnsupervisedSandbox:
                 job.end()
                 kill_process_group(process)
                 code = process.wait()
-            until = time.monotonic() + _DYING_SECONDS
-            for pipe in pipes:
-                pipe.is_at_end(until - time.monotonic())
-            out, err = (pipe.bytes().decode("utf-8", "replace") for pipe in pipes)
+            out, err = drained(pipes, _DYING_SECONDS)
             return TaskResult(
                 Outcome(code, stopped == "wall", out, err, seconds), inside.outputs(), job.cpu_seconds(), stopped
             )
