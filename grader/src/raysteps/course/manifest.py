@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from datetime import date
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import MAX_FOUND, belongs_above, clean, did_you_mean, join_and
@@ -150,16 +150,16 @@ def _are_words(value: object) -> bool:
     return isinstance(value, list) and all(isinstance(word, str) or _is_positive(word) for word in value)
 
 
-def _is_positive(value: object) -> bool:
+def _is_positive(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < math.inf
 
 
 def _is_whole(value: object) -> bool:
-    return _is_positive(value) and value == int(value)  # type: ignore[call-overload]
+    return _is_positive(value) and value == int(value)
 
 
 def _is_share(value: object) -> bool:
-    return (value == 0 and not isinstance(value, bool)) or (_is_positive(value) and value <= 1)  # type: ignore[operator]
+    return (value == 0 and not isinstance(value, bool)) or (_is_positive(value) and value <= 1)
 
 
 def _is_truth(value: object) -> bool:
@@ -340,14 +340,14 @@ def _parse(text: str, path: Path) -> Step:
         weight_together=float(weights["together"]),
         seconds=float(limits["seconds"]),
         images=tuple(_image(image) for image in table.get("images", [])),
-        memory_mb=int(limits.get("memory_mb", 4096)),
+        memory_mb=int(limits.get("memory_mb", Step.memory_mb)),
         more_limits=tuple(
             (name, float(value)) for name, value in limits.items() if name not in ("seconds", "memory_mb")
         ),
         about=" ".join(table.get("about", table["title"]).split()),
-        part=table.get("part", 1),
+        part=table.get("part", Step.part),
         barred=tuple((place, name) for place, names in table.get("barred", {}).items() for name in names),
-        left_out=table.get("left_out", False),
+        left_out=table.get("left_out", Step.left_out),
     )
     if step.id != path.parent.name:
         raise _fault(

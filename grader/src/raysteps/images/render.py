@@ -255,7 +255,7 @@ class PictureCriteria:
     args: tuple[str, ...]
     max_wrong: float
     max_noise: float | None = None
-    more_samples: int = 16
+    more_samples: int = ImageCase.more_samples
 
 
 def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteria) -> Pixels:
