@@ -137,13 +137,13 @@ def test_the_commonest_color_is_that_of_the_most_pixels() -> None:
 def test_a_picture_that_does_not_pass_earns_by_how_much_less_wrong_it_is() -> None:
     reference = np.zeros((20, 20, 3), dtype=np.uint8)
     reference[5:15, 5:15] = 200
-    for_nothing = baseline_error(reference)
+    baseline = baseline_error(reference)
     half = reference.copy()
     half[5:15, 5:10] = 0
-    assert 0 < for_nothing <= mean_error(np.zeros_like(reference), reference)
-    assert partial_credit(half, reference, for_nothing) == pytest.approx(MAX_PARTIAL_SHARE / 2)
-    assert partial_credit(reference, reference, for_nothing) == MAX_PARTIAL_SHARE
-    assert partial_credit(np.full_like(reference, 90), reference, for_nothing) == 0, "one colour is no work"
-    assert partial_credit(255 - reference, reference, for_nothing) == 0
-    assert partial_credit(half[:10], reference, for_nothing) == 0, "another size"
+    assert 0 < baseline <= mean_error(np.zeros_like(reference), reference)
+    assert partial_credit(half, reference, baseline) == pytest.approx(MAX_PARTIAL_SHARE / 2)
+    assert partial_credit(reference, reference, baseline) == MAX_PARTIAL_SHARE
+    assert partial_credit(np.full_like(reference, 90), reference, baseline) == 0, "one colour is no work"
+    assert partial_credit(255 - reference, reference, baseline) == 0
+    assert partial_credit(half[:10], reference, baseline) == 0, "another size"
     assert partial_credit(half, reference, 0.0) == 0, "whatever is drawn, nobody had to work for it"

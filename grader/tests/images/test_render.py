@@ -88,7 +88,7 @@ def test_estimates_are_read_where_they_are_asked_for(tmp_path: Path) -> None:
 def test_a_noisy_picture_is_judged_by_its_light(whole_kit: BuiltKit, tmp_path: Path) -> None:
     """The reference's own, drawn from other seeds, and what becomes of it when light is lost."""
     args = ("--step", "11", "--size", "40x30", "--samples", "16", "--sampler", "stratified", "--filter", "box")
-    gate = PictureCriteria(args, max_wrong=0.0, max_noise=2.0, more_samples=4)
+    criteria = PictureCriteria(args, max_wrong=0.0, max_noise=2.0, more_samples=4)
     kit = whole_kit
     step = next(step for step in kit.steps if step.index == 11)
     scene = kit.project.root / step.images[0].scene
@@ -101,34 +101,34 @@ def test_a_noisy_picture_is_judged_by_its_light(whole_kit: BuiltKit, tmp_path: P
         return RenderResult(ran, read_ppm(picture), estimates=read_estimates(estimates.read_bytes()))
 
     for seed in (1, 2, 3):
-        verdict = judge_picture(kit, scene, gate, drawn(seed))
+        verdict = judge_picture(kit, scene, criteria, drawn(seed))
         assert verdict.passed, verdict.message
     dark = drawn(4)
     assert dark.estimates is not None
     dark.estimates.mean[:, :20] *= 0.6
-    verdict = judge_picture(kit, scene, gate, dark)
+    verdict = judge_picture(kit, scene, criteria, dark)
     assert "too dark" in verdict.message
     assert 0.3 < verdict.wrong_share <= 0.6
-    assert 0.0 < _part(kit, step, scene, gate, dark) < _part(kit, step, scene, gate, drawn(4)) <= 0.6
-    assert shown_reference(kit, scene, gate).shape == (30, 40, 3)
+    assert 0.0 < _part(kit, step, scene, criteria, dark) < _part(kit, step, scene, criteria, drawn(4)) <= 0.6
+    assert shown_reference(kit, scene, criteria).shape == (30, 40, 3)
 
 
 def test_estimates_of_which_only_half_was_kept_are_drawn_again(whole_kit: BuiltKit, tmp_path: Path) -> None:
     (tmp_path / "bin").symlink_to(whole_kit.folder / "bin")
     (tmp_path / "pictures").mkdir()
     kit = replace(whole_kit, folder=tmp_path)
-    gate = PictureCriteria(("--step", "11", "--size", "12x9"), max_wrong=0.0, max_noise=2.0, more_samples=4)
+    criteria = PictureCriteria(("--step", "11", "--size", "12x9"), max_wrong=0.0, max_noise=2.0, more_samples=4)
     scene = kit.project.root / next(step for step in kit.steps if step.index == 11).images[0].scene
-    parts = reference_parts(kit, scene, gate)
+    parts = reference_parts(kit, scene, criteria)
     (kept,) = tmp_path.rglob("*.estimates")
     whole = kept.read_bytes()
     kept.write_bytes(whole[:99])
-    assert (reference_parts(kit, scene, gate).mean == parts.mean).all()
+    assert (reference_parts(kit, scene, criteria).mean == parts.mean).all()
     assert kept.read_bytes() == whole
 
 
-def _part(kit: BuiltKit, step: Step, scene: Path, gate: PictureCriteria, made: RenderResult) -> float:
-    return pixel_credit(kit, step, scene, gate, made)
+def _part(kit: BuiltKit, step: Step, scene: Path, criteria: PictureCriteria, made: RenderResult) -> float:
+    return pixel_credit(kit, step, scene, criteria, made)
 
 
 def test_a_graded_scene_stands_alone(whole_kit: BuiltKit, tmp_path: Path) -> None:

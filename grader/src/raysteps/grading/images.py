@@ -93,7 +93,7 @@ def image_credit(
     kit: BuiltKit,
     step: Step,
     scene: Path,
-    gate: ImageCase | PictureCriteria,
+    criteria: ImageCase | PictureCriteria,
     max_share: float | None,
     rendered: RenderResult,
     *,
@@ -101,8 +101,8 @@ def image_credit(
 ) -> float:
     """What a picture that did not pass earns: by its pixels, and by the tests of objects that were spared."""
     pixels = MAX_PARTIAL_SHARE
-    if rendered.pixels is not None and (not pixels_pass or gate.max_noise is not None):
-        pixels = pixel_credit(kit, step, scene, gate, rendered)
+    if rendered.pixels is not None and (not pixels_pass or criteria.max_noise is not None):
+        pixels = pixel_credit(kit, step, scene, criteria, rendered)
     return round(pixels * _part_spared(rendered.share_tested, max_share), 6)
 
 

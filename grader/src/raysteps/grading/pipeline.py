@@ -194,8 +194,8 @@ class HiddenStepGrader(StepGrader):
             result.outcome, result.message = trouble(rendered)
             return result
         # Each seed has a picture of its own, so that the reference's must not take long.
-        gate = PictureCriteria(scene.args, scene.max_wrong, scene.max_noise, more_samples=4)
-        verdict = judge_picture(image_grader.kit, path, gate, rendered)
+        criteria = PictureCriteria(scene.args, scene.max_wrong, scene.max_noise, more_samples=4)
+        verdict = judge_picture(image_grader.kit, path, criteria, rendered)
         problem = verdict.message
         if verdict.passed and scene.max_share is not None:
             problem = too_many_tests(rendered.share_tested, scene.max_share) or not_spared
@@ -210,7 +210,7 @@ class HiddenStepGrader(StepGrader):
                 image_grader.kit,
                 step,
                 path,
-                gate,
+                criteria,
                 scene.max_share,
                 rendered,
                 pixels_pass=verdict.passed,

@@ -159,12 +159,12 @@ def mean_error(mine: Pixels, reference: Pixels) -> float:
     return float(np.where(gap > TOLERANCE, np.minimum(gap, _WHOLLY_WRONG), 0).mean()) / _WHOLLY_WRONG
 
 
-def partial_credit(mine: Pixels, reference: Pixels, for_nothing: float) -> float:
+def partial_credit(mine: Pixels, reference: Pixels, baseline: float) -> float:
     """What a picture that does not pass still earns: how much less wrong it is than one that nobody has to work for.
-    `for_nothing`: the error of that one."""
-    if mine.shape != reference.shape or is_flat(mine) or for_nothing <= 0:
+    `baseline`: the error of that one."""
+    if mine.shape != reference.shape or is_flat(mine) or baseline <= 0:
         return 0.0
-    return MAX_PARTIAL_SHARE * max(0.0, 1 - mean_error(mine, reference) / for_nothing)
+    return MAX_PARTIAL_SHARE * max(0.0, 1 - mean_error(mine, reference) / baseline)
 
 
 def baseline_error(reference: Pixels) -> float:

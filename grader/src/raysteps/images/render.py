@@ -258,18 +258,18 @@ class PictureCriteria:
     more_samples: int = ImageCase.more_samples
 
 
-def shown_reference(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteria) -> Pixels:
+def shown_reference(kit: BuiltKit, scene: Path, criteria: ImageCase | PictureCriteria) -> Pixels:
     """The reference's picture: of a noisy one, that with more samples, drawn once with the estimates beside it."""
-    if gate.max_noise is None or not kit.has_reference:
-        return reference_picture(kit, scene, gate.args)
-    return _read_drawn(kit, scene, with_samples(gate.args, gate.more_samples), estimates=True)
+    if criteria.max_noise is None or not kit.has_reference:
+        return reference_picture(kit, scene, criteria.args)
+    return _read_drawn(kit, scene, with_samples(criteria.args, criteria.more_samples), estimates=True)
 
 
-def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteria) -> Estimates:
+def reference_parts(kit: BuiltKit, scene: Path, criteria: ImageCase | PictureCriteria) -> Estimates:
     """The means of the parts of a noisy picture."""
     if not kit.has_reference:
-        return stored_parts(_find(kit, scene, gate.args).path)
-    args = with_samples(gate.args, gate.more_samples)
+        return stored_parts(_find(kit, scene, criteria.args).path)
+    args = with_samples(criteria.args, criteria.more_samples)
 
     def read() -> Estimates:
         return read_estimates(_drawn(kit, scene, args, estimates=True).with_suffix(ESTIMATES).read_bytes()).in_parts()
@@ -281,26 +281,28 @@ def reference_parts(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteri
         return read()
 
 
-def judge_picture(kit: BuiltKit, scene: Path, gate: ImageCase | PictureCriteria, rendered: RenderResult) -> Comparison:
+def judge_picture(
+    kit: BuiltKit, scene: Path, criteria: ImageCase | PictureCriteria, rendered: RenderResult
+) -> Comparison:
     """What was made, beside the reference's."""
     assert rendered.pixels is not None
-    if gate.max_noise is None or rendered.estimates is None:
-        return compare(rendered.pixels, reference_picture(kit, scene, gate.args), gate.max_wrong)
-    rows, columns, _ = shown_reference(kit, scene, gate).shape
-    parts = reference_parts(kit, scene, gate)
-    return compare_estimates(rendered.estimates, parts, (columns, rows), gate.more_samples, gate.max_noise)
+    if criteria.max_noise is None or rendered.estimates is None:
+        return compare(rendered.pixels, reference_picture(kit, scene, criteria.args), criteria.max_wrong)
+    rows, columns, _ = shown_reference(kit, scene, criteria).shape
+    parts = reference_parts(kit, scene, criteria)
+    return compare_estimates(rendered.estimates, parts, (columns, rows), criteria.more_samples, criteria.max_noise)
 
 
 def pixel_credit(
-    kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | PictureCriteria, rendered: RenderResult
+    kit: BuiltKit, step: Step, scene: Path, criteria: ImageCase | PictureCriteria, rendered: RenderResult
 ) -> float:
     """What a picture that does not pass still earns; of a noisy one, by the light of its parts."""
     assert rendered.pixels is not None
-    for_nothing = step_baseline_error(kit, step, scene, gate)
-    if gate.max_noise is None or rendered.estimates is None:
-        return partial_credit(rendered.pixels, reference_picture(kit, scene, gate.args), for_nothing)
-    right = as_picture(reference_parts(kit, scene, gate).mean)
-    return partial_credit(as_picture(rendered.estimates.in_parts().mean), right, for_nothing)
+    baseline = step_baseline_error(kit, step, scene, criteria)
+    if criteria.max_noise is None or rendered.estimates is None:
+        return partial_credit(rendered.pixels, reference_picture(kit, scene, criteria.args), baseline)
+    right = as_picture(reference_parts(kit, scene, criteria).mean)
+    return partial_credit(as_picture(rendered.estimates.in_parts().mean), right, baseline)
 
 
 def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
@@ -311,10 +313,10 @@ def at_step(args: tuple[str, ...], step: int) -> tuple[str, ...]:
 _FIRST_WITH_LIGHT = 3  # the pictures of the steps before show something else
 
 
-def step_baseline_error(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase | PictureCriteria) -> float:
+def step_baseline_error(kit: BuiltKit, step: Step, scene: Path, criteria: ImageCase | PictureCriteria) -> float:
     """How wrong the best picture is that took no work in this step: one of a single colour, outlines, or what the steps
     before it draw. A tree changes no picture."""
-    args = gate.args
+    args = criteria.args
     if not kit.has_reference:
         return _stored_baseline_error(kit, scene, args)
 
@@ -323,12 +325,12 @@ def step_baseline_error(kit: BuiltKit, step: Step, scene: Path, gate: ImageCase 
             return reference_picture(kit, scene, at.args)
         return as_picture(reference_parts(kit, scene, at).mean)
 
-    reference = drawn(gate)
+    reference = drawn(criteria)
     simple = baseline_error(reference)
     if step.index <= _FIRST_WITH_LIGHT or "--accel" in args or "--step" not in args:
         return simple
     before = PictureCriteria(
-        at_step(args, earlier(step, kit.steps)[-1].index), gate.max_wrong, gate.max_noise, gate.more_samples
+        at_step(args, earlier(step, kit.steps)[-1].index), criteria.max_wrong, criteria.max_noise, criteria.more_samples
     )
     return min(simple, mean_error(drawn(before), reference))
 
