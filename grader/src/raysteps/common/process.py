@@ -74,7 +74,7 @@ class PipeReader:
         self._thread.join(max(0.0, seconds))
         return not self._thread.is_alive()
 
-    def bytes(self) -> bytes:
+    def data(self) -> bytes:
         return bytes(self._kept)
 
 
@@ -83,7 +83,7 @@ def drained(pipes: Sequence[PipeReader], seconds: float) -> list[str]:
     until = time.monotonic() + seconds
     for pipe in pipes:
         pipe.is_at_end(until - time.monotonic())
-    return [pipe.bytes().decode("utf-8", "replace") for pipe in pipes]
+    return [pipe.data().decode("utf-8", "replace") for pipe in pipes]
 
 
 _MEGABYTE = 1 << 20
