@@ -4,7 +4,7 @@ import unicodedata
 
 import pytest
 
-from raysteps.common.text import clean, name_order, one_line, printable, seen
+from raysteps.common.text import clean, name_order, one_line, printable, visible_text
 
 _UNSEEN = [
     "\u00ad",
@@ -26,7 +26,7 @@ def test_signs_that_nobody_sees_are_named_or_left_out(sign: str) -> None:
     """Nobody's name turns the line that it stands in, or looks like another one's."""
     named = f"ann⟨U+{ord(sign):04X}⟩x"
     assert printable(f"ann{sign}x") == one_line(f"ann{sign}x") == named
-    assert seen(f"ann{sign}x") == "annx"
+    assert visible_text(f"ann{sign}x") == "annx"
     assert sign not in clean(f"ann{sign}x")
     named.encode()  # any file and any terminal takes it
 
@@ -41,7 +41,7 @@ def test_whatever_has_no_form_of_its_own_is_known() -> None:
 
 def test_words_stay_as_they_are() -> None:
     text = "żółw 光線 مرحبا é e\u0301\n\tx = 1;"
-    assert printable(text) == seen(text) == clean(text) == text
+    assert printable(text) == visible_text(text) == clean(text) == text
     assert one_line("a\nb\tc") == "a b c"
 
 

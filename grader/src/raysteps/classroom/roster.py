@@ -11,7 +11,7 @@ from pathlib import Path
 
 from raysteps.classroom.entries import folded, platform_identity, stem
 from raysteps.common.errors import UsageError, decode_error_position, reason
-from raysteps.common.text import delimiter_of, join_and, join_some, nearest, one_line, seen
+from raysteps.common.text import delimiter_of, join_and, join_some, nearest, one_line, visible_text
 from raysteps.submission.load import like
 
 # Header names without anything but letters and digits, in lower case. The first that is there counts.
@@ -145,7 +145,7 @@ def _rows(text: str, path: Path) -> Iterable[tuple[int, list[str]]]:
 
 def _cell(field: str, text: str) -> str:
     """A submission is called what entries are; everything else is what people see, and what they would type."""
-    return one_line(text if field == "submission" else seen(text)).strip()
+    return one_line(text if field == "submission" else visible_text(text)).strip()
 
 
 def read_roster(path: Path, say: Callable[[str], None] = lambda words: None) -> list[Student]:
@@ -203,7 +203,7 @@ class Matches:
 
 
 def _words(text: str) -> str:
-    return re.sub(r"[\W_]+", "_", folded(seen(_NAMED.sub("", text)))).strip("_")
+    return re.sub(r"[\W_]+", "_", folded(visible_text(_NAMED.sub("", text)))).strip("_")
 
 
 def _plain(text: str) -> str:

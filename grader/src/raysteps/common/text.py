@@ -43,7 +43,7 @@ def harmless_log(text: str) -> str:
     return _COMMAND.sub(r"\1\2: :", text).replace("##[", "# #[")
 
 
-def seen(text: str) -> str:
+def visible_text(text: str) -> str:
     """Without control characters, and without signs that nobody sees."""
     return _UNSEEN.sub("", _bare(text))
 
@@ -63,7 +63,7 @@ def first_line(text: str) -> str:
 
 def clean(text: str, limit: int = 4000) -> str:
     """Without control characters, signs that nobody sees, and halves of surrogates."""
-    return shorten(seen(text.encode("utf-8", "replace").decode("utf-8")), limit)
+    return shorten(visible_text(text.encode("utf-8", "replace").decode("utf-8")), limit)
 
 
 def join_and(words: Sequence[str]) -> str:
