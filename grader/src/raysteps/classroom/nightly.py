@@ -25,6 +25,8 @@ from raysteps.common.files import write_if_changed
 from raysteps.results.model import Feedback
 from raysteps.results.store import REPORT
 
+STATUS = "status.txt"  # beside each page: what may be expected next
+
 # How many feedbacks a day has, and when it begins.
 
 
@@ -345,6 +347,3 @@ class NightlyRound:
         elif used >= most:
             lines.append(f"The next feedback is possible from {later} on.")
         return "\n".join(lines) + "\n"
-
-
-STATUS = "status.txt"

@@ -154,6 +154,8 @@ def _limit_reached(usage: Usage, limits: Limits) -> LimitHit:
 
 
 class _Watch:
+    """One task from its start to its end: it reads the pipes, measures, and kills what goes beyond a limit."""
+
     def __init__(
         self,
         process: StartedProcess,
@@ -234,7 +236,7 @@ class _Watch:
                 else:
                     selector.unregister(key.fileobj)
 
-    def __call__(self) -> MonitorReport:
+    def until_the_end(self) -> MonitorReport:
         handle = os.pidfd_open(self._process.pid) if hasattr(os, "pidfd_open") else -1
         try:
             with selectors.DefaultSelector() as selector:
@@ -265,4 +267,4 @@ def monitor(
 ) -> MonitorReport:
     """Stays until the process of the task has ended and everything that belongs to it was killed. Nobody else may wait
     for it."""
-    return _Watch(process, start, task.limits, watched, wire, task.abandoned)()
+    return _Watch(process, start, task.limits, watched, wire, task.abandoned).until_the_end()
