@@ -392,6 +392,15 @@ def _chosen(kit: BuiltKit, settings: Settings) -> list[Step]:
     return [step for step in kit.steps if not settings.only or step.id in settings.only]
 
 
+def _refuse_faults(graders: Sequence[HiddenStepGrader], out: Path) -> None:
+    """When all is written."""
+    faults = [grader.fault for grader in graders if grader.fault]
+    if faults:
+        raise GraderFault(
+            f"not graded: {'; '.join(faults)}; what became of the other steps is in {out / 'results.json'}"
+        )
+
+
 def grade_submission(
     kit: BuiltKit,
     submission: Submission,
@@ -417,51 +426,47 @@ def grade_submission(
     together = submission_seconds(settings.limits)
     counted, apart = AccountingSandbox(sandbox, together), AccountingSandbox(sandbox, _APART * together)
     chosen = _chosen(kit, settings)
-    with ExitStack() as ends:
+
+    def write(results: Results) -> None:
+        write_results(withhold(results, settings.feedback), out)
+
+    with (
+        ExitStack() as ends,
+        ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
+        counted.until_interrupted(),
+        apart.until_interrupted(),
+        ahead.until_interrupted(),
+    ):
         folder = ends.enter_context(tempfile.TemporaryDirectory(prefix="raysteps-", ignore_cleanup_errors=True))
         context = GradingContext(kit, submission, counted, Path(folder), out, say, ahead=ahead)
         spare = SpareProcessors(jobs - len(chosen), ends)
-        with (
-            ThreadPoolExecutor(max_workers=max(1, jobs)) as pool,
-            counted.until_interrupted(),
-            apart.until_interrupted(),
-            ahead.until_interrupted(),
-        ):
-            say("building the steps")
-            spare.start(partial(_make_questions, context, chosen, settings.seed))  # while the compiler works
-            compiled = compile_steps(context, chosen, pool, settings.limits)
+        say("building the steps")
+        spare.start(partial(_make_questions, context, chosen, settings.seed))  # while the compiler works
+        compiled = compile_steps(context, chosen, pool, settings.limits)
 
-            graders = [
-                HiddenStepGrader(context, step, kit.limits_of(step, settings.limits), compiled, settings, spare, apart)
-                for step in chosen
-            ]
-            order = -1 if jobs > 1 else 1  # late steps take longest: first, they leave nobody idle at the end
-            graded = [pool.submit(grader.grade) for grader in graders[::order]]
-            while wait(graded, TURN).not_done:
-                pass
-            alone = [one.result() for one in graded]
-            right = {result.id for result in alone if is_right(result)}
-            finished = [pool.submit(grader.finish, right=right) for grader in graders[::order]]
-            while wait(finished, TURN).not_done:
-                pass
-            steps = [one.result() for one in finished][::order]
-            if counted.is_spent:
-                _tell_of_the_limit(steps, together)
-            name_crash(steps)
-            used = counted.cpu_seconds + apart.cpu_seconds + ahead.cpu_seconds
-            timing = Timing(round(time.monotonic() - start, 2), round(used, 2))
-            results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
-            results.course = course
-            if any(grader.has_to_learn for grader in graders) and not any(grader.fault for grader in graders):
-                if tell is None:
-                    write_results(withhold(results, settings.feedback), out)
-                else:
-                    tell(results)
-            interruptible_map(pool, HiddenStepGrader.explain, graders)
-    write_results(withhold(results, settings.feedback), out)
-    faults = [grader.fault for grader in graders if grader.fault]
-    if faults:
-        raise GraderFault(
-            f"not graded: {'; '.join(faults)}; what became of the other steps is in {out / 'results.json'}"
-        )
+        graders = [
+            HiddenStepGrader(context, step, kit.limits_of(step, settings.limits), compiled, settings, spare, apart)
+            for step in chosen
+        ]
+        order = -1 if jobs > 1 else 1  # late steps take longest: first, they leave nobody idle at the end
+        graded = [pool.submit(grader.grade) for grader in graders[::order]]
+        while wait(graded, TURN).not_done:
+            pass
+        right = {one.result().id for one in graded if is_right(one.result())}
+        finished = [pool.submit(grader.finish, right=right) for grader in graders[::order]]
+        while wait(finished, TURN).not_done:
+            pass
+        steps = [one.result() for one in finished][::order]
+        if counted.is_spent:
+            _tell_of_the_limit(steps, together)
+        name_crash(steps)
+        used = counted.cpu_seconds + apart.cpu_seconds + ahead.cpu_seconds
+        timing = Timing(round(time.monotonic() - start, 2), round(used, 2))
+        results = Results.of(submission.name, steps, kit.fingerprint, counted.isolation, timing)
+        results.course = course
+        if any(grader.has_to_learn for grader in graders) and not any(grader.fault for grader in graders):
+            (tell or write)(results)
+        interruptible_map(pool, HiddenStepGrader.explain, graders)
+    write(results)
+    _refuse_faults(graders, out)
     return results
