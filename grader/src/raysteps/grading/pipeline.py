@@ -46,7 +46,7 @@ from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, uncached_reference_answers
 from raysteps.results.model import HiddenResult, ImageResult, Integration, Results, Settings, StepResult, Timing
 from raysteps.results.store import write_results
-from raysteps.sandbox.task import AccountingSandbox, Sandbox
+from raysteps.sandbox.task import AccountingSandbox, Sandbox, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import NOTHING_AHEAD, Compiled, CompiledAhead, Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit
@@ -129,7 +129,17 @@ class HiddenStepGrader(StepGrader):
                 result.images, scenes = draw(self._image_grader)
             if plan is not None and binary is not None:
                 limits = limits_after(result.tests, self._limits)  # a picture that hangs takes no time from functions
-                result.hidden = self._asking(plan, programs["worker"], completed, limits)()
+                ask = self._prepare_questions(programs["worker"], completed, limits)
+                result.hidden = run_hidden_tests(
+                    step,
+                    plan,
+                    ask,
+                    self._reference_answers,
+                    self._settings.seed,
+                    limits.seconds,
+                    self._examples,
+                    known_to_hang(result.tests, kit.tests[step.id]),
+                )
                 self._ask_apart(binary, plan, limits)
                 self._weigh_tests()
             if early is not None:
@@ -146,27 +156,18 @@ class HiddenStepGrader(StepGrader):
             self._ran = True
         return self._result
 
-    def _asking(
-        self, plan: Plan, worker: Program, completed: Programs | None, limits: StepLimits
-    ) -> Callable[[], list[HiddenResult]]:
-        """Asks the judge's cases when it is called."""
-        kit, settings = self._context.kit, self._settings
+    def _prepare_questions(self, worker: Program, completed: Programs | None, limits: StepLimits) -> Ask:
+        """Whom the judge's cases are asked, and what makes a small one of a case that goes wrong."""
+        kit = self._context.kit
         ask = self._ask = self._asked_of(worker, completed, limits)
-        if settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
+        if self._settings.feedback == "full":  # else the cases are withheld, and nobody needs a small one
             self._examples = Counterexamples(
                 ask, lambda cases, _: uncached_reference_answers(kit, cases), self._context.out, self._context.say
             )
-        return partial(
-            run_hidden_tests,
-            self.step,
-            plan,
-            ask,
-            lambda cases, _: reference_answers(kit, cases),
-            settings.seed,
-            limits.seconds,
-            self._examples,
-            known_to_hang(self._result.tests, kit.tests[self.step.id]),
-        )
+        return ask
+
+    def _reference_answers(self, cases: bytes, _: float) -> TaskResult:
+        return reference_answers(self._context.kit, cases)
 
     def _draw(
         self, program: Program, unseen: Sequence[HiddenScene], image_grader: ImageGrader
@@ -268,7 +269,7 @@ class HiddenStepGrader(StepGrader):
         """Whoever is better so is judged so. Who hung is not asked again, nor anybody where several functions are not
         written: as in `_completed`, what is left would be taken for most of the work. A tree that spares nothing stays:
         a search through it spares nothing either."""
-        result, kit, missing, examples = self._result, self._context.kit, set(self._unfinished), self._examples
+        result, missing, examples = self._result, set(self._unfinished), self._examples
         wrong = [item for item in result.hidden if not item.passed and item.name not in missing]
         if len(missing) > 1:
             return
@@ -281,11 +282,12 @@ class HiddenStepGrader(StepGrader):
                 worker = self._worker_with(binary, replaced)
             if worker is None:
                 continue
+            ask = ask_student(self._apart, worker, limits)
             again = run_hidden_tests(
                 self.step,
                 replace(plan, functions=tuple(one for one in plan.functions if one.name == item.name)),
-                ask := ask_student(self._apart, worker, limits),
-                lambda cases, _: reference_answers(kit, cases),
+                ask,
+                self._reference_answers,
                 self._settings.seed,
                 limits.seconds,
                 None if examples is None else replace(examples, student=ask, above=item.share),
@@ -318,11 +320,12 @@ class HiddenStepGrader(StepGrader):
         """In words why it is not right. Whatever a student's program says, it costs no grade."""
         if not self._unexplained:
             return
-        doctor = Diagnostician(self._context.kit, self.step, self._plan, self._ask, self._context.say)
+        diagnostician = Diagnostician(self._context.kit, self.step, self._plan, self._ask, self._context.say)
         try:
             source = self._context.source(self.step) or ""
-            found = doctor.diagnose(self._result, self._image_grader.made, self._unfinished, self._spoilt, source)
-            self._result.diagnoses = found
+            self._result.diagnoses = diagnostician.diagnose(
+                self._result, self._image_grader.made, self._unfinished, self._spoilt, source
+            )
         except Exception as error:  # the kit's own trouble too: an explanation is not worth a grade
             self._context.say(f"no diagnosis of {self.step.number}: {error!r}")
 
