@@ -214,10 +214,16 @@ class Plan:
             {"id": step.id, "title": step.title, "points": step.points, "bonus": step.bonus} for step in self.chosen
         ]
         folder = str(self.options.folder.resolve()).encode("utf-8", "backslashreplace").decode()
-        shard = str(self.options.shard)
         files = [os.path.realpath(path) for path in self.given.files]
         return RunFacts(
-            *(self.uid, kit, folder, shard, self.settings, columns, self.late_policy, self.listing.ignored),
+            uid=self.uid,
+            kit=kit,
+            folder=folder,
+            shard=str(self.options.shard),
+            settings=self.settings,
+            steps=columns,
+            late_policy=self.late_policy,
+            ignored=self.listing.ignored,
             roster=roster_text(self.students),
             files=[file.encode("utf-8", "backslashreplace").decode() for file in files],
             course=self.options.course.name,

@@ -157,7 +157,9 @@ class Session:
 
     def _record(self, answer: JobResult, pending: _Pending) -> None:
         kept = self.database.record(
-            *(self.run, answer, pending.key),
+            self.run,
+            answer,
+            pending.key,
             unreadable=pending.unreadable,
             sources=pending.sources,
             digest=pending.digest,

@@ -146,8 +146,16 @@ class _Night:
         names = {row.entry: row.name for row in registered}
         allowance = Allowance(self.per_day, self._zone_of(plan))
         nightly_round = NightlyRound(
-            *(plan, grader.fingerprint, database, names, allowance, self.clock(), before, self.give),
-            *(self.options.feedback, self._print),
+            plan=plan,
+            kit=grader.fingerprint,
+            database=database,
+            names=names,
+            allowance=allowance,
+            now=self.clock(),
+            before=before,
+            folder=self.give,
+            feedback=self.options.feedback,
+            say=self._print,
         )
         for one in nightly_round.decisions:
             if one.state == "give":
@@ -160,7 +168,12 @@ class _Night:
             )
             meter = ProgressMeter(self.console, len(due))
             session = Session(
-                *(plan, grader.fingerprint, database, meter, run, names),
+                plan=plan,
+                kit=grader.fingerprint,
+                database=database,
+                meter=meter,
+                run=run,
+                names=names,
                 learn=lambda: grader.learn([step.id for step in plan.chosen], meter.say),
                 entries=[one.entry for one in due],
                 is_whole=nightly_round.is_settled,
@@ -241,8 +254,16 @@ def _night(
         raise UsageError(f"--give {give}: lies in the folder of the submissions; name another folder")
     usable_folder(give)
     return _Night(
-        *(project, console, options, give, arguments.per_day, arguments.zone, arguments.settle, remotes),
-        *(clock, wait),
+        project=project,
+        console=console,
+        options=options,
+        give=give,
+        per_day=arguments.per_day,
+        zone=arguments.zone,
+        settle=arguments.settle,
+        remotes=remotes,
+        clock=clock,
+        wait=wait,
     )
 
 
