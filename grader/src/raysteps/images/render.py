@@ -136,6 +136,11 @@ _MAX_STATS = 1 << 16  # bytes; raytrace writes some hundred
 _MAX_SHARE = 1e6  # of the scene that a ray is tested against; more than 1 where a surface stands in many boxes
 
 
+# What statistics can be instead, which a student's program wrote: no JSON, other kinds of values, no such keys, numbers
+# beyond a float, or a thousand brackets.
+_BAD_STATS = (ValueError, TypeError, KeyError, OverflowError, RecursionError)
+
+
 @dataclass(frozen=True)
 class RenderResult:
     """A picture, or why there is none."""
@@ -153,7 +158,7 @@ def _share_tested(stats: bytes) -> float | None:
     """From the statistics of raytrace: how much of the scene each ray was tested against."""
     try:
         share = float(json.loads(stats)["share_tested"])
-    except Exception:  # whatever stands there; the reference's are read in the same way
+    except _BAD_STATS:
         return None
     return share if 0 <= share <= _MAX_SHARE else None
 
@@ -414,5 +419,5 @@ def read_work(stats: bytes) -> Work | None:
             references=_count(structure["references"]),
             bytes=_count(structure["bytes"]),
         )
-    except Exception:  # as above
+    except _BAD_STATS:
         return None
