@@ -85,17 +85,51 @@ _MARKER = re.compile(r"^\s*// (BEGIN SOLUTION|END SOLUTION|TODO:|RETURN )")
 
 
 @dataclass(frozen=True)
-class _Region:
+class MarkedRegion:
+    """What students write themselves: a function, or without a name a helper of the solution."""
+
     indent: str
     name: str | None
-    body: list[str]
+    line: int
+    marked: list[str]  # with what the stub is made of
+
+    @property
+    def body(self) -> list[str]:
+        return [line for line in self.marked if not _MARKER.match(line)]
 
 
-def _stub_lines(region: _Region, step: Step, where: str) -> list[str]:
+def _pieces(solution: str, where: str) -> Iterator[str | MarkedRegion]:
+    """Its lines in their order, those of a region as one."""
+    region: MarkedRegion | None = None
+    for number, line in enumerate(solution.splitlines(), start=1):
+        begin = _BEGIN.match(line)
+        if begin is not None:
+            if region is not None:
+                raise GraderFault(f"{where}: a region begins inside another")
+            region = MarkedRegion(begin.group(1), begin.group(2), number, [])
+        elif _END.match(line):
+            if region is None:
+                raise GraderFault(f"{where}: END SOLUTION without BEGIN SOLUTION")
+            yield region
+            region = None
+        elif region is not None:
+            region.marked.append(line)
+        else:
+            yield line
+    if region is not None:
+        raise GraderFault(f"{where}: a region has no END SOLUTION")
+
+
+def solution_regions(solution: str, where: str) -> list[MarkedRegion]:
+    """The marked regions."""
+    return [piece for piece in _pieces(solution, where) if isinstance(piece, MarkedRegion)]
+
+
+def _stub_lines(region: MarkedRegion, step: Step, where: str) -> list[str]:
     if region.name is None:
         return []
-    todo = [line for line in region.body if line.strip().startswith("// TODO: ")]
-    returns = [line.strip() for line in region.body if line.strip().startswith("// RETURN")]
+    todo = [line for line in region.marked if line.strip().startswith("// TODO: ")]
+    returns = [line.strip() for line in region.marked if line.strip().startswith("// RETURN")]
     if len(todo) != 1 or len(returns) > 1:
         raise GraderFault(f"{where}: region {region.name} needs one TODO line and at most one RETURN line")
     lines = [todo[0], f'{region.indent}RAYSTEPS_TODO("{step.id}", "{region.name}");']
@@ -104,62 +138,23 @@ def _stub_lines(region: _Region, step: Step, where: str) -> list[str]:
     return lines
 
 
-@dataclass(frozen=True)
-class MarkedRegion:
-    """What students write themselves: a function, or without a name a helper of the solution."""
-
-    name: str | None
-    line: int
-    body: list[str]
-
-
-def solution_regions(solution: str) -> list[MarkedRegion]:
-    """The marked regions, without what the stub is made of."""
-    found: list[MarkedRegion] = []
-    region: MarkedRegion | None = None
-    for number, line in enumerate(solution.splitlines(), start=1):
-        begin = _BEGIN.match(line)
-        if begin is not None:
-            region = MarkedRegion(begin.group(2), number, [])
-            found.append(region)
-        elif _END.match(line):
-            region = None
-        elif region is not None and not _MARKER.match(line):
-            region.body.append(line)
-    return found
-
-
 def make_stub(solution: str, step: Step, keep: Collection[str] = ()) -> str:
     """The student's starting point: every named region becomes a TODO, unnamed regions vanish. `keep`: functions that
     stay as they are in the solution, with all unnamed regions."""
     where = f"solutions/{step.path.as_posix()}"
     out: list[str] = []
     names: list[str] = []
-    region: _Region | None = None
     drop_blank = False
-    for line in solution.splitlines():
-        begin = _BEGIN.match(line)
-        if begin is not None:
-            if region is not None:
-                raise GraderFault(f"{where}: a region begins inside another")
-            region = _Region(begin.group(1), begin.group(2), [])
-        elif _END.match(line):
-            if region is None:
-                raise GraderFault(f"{where}: END SOLUTION without BEGIN SOLUTION")
-            kept = bool(keep) if region.name is None else region.name in keep
-            solved = [line for line in region.body if not _MARKER.match(line)]
-            out += solved if kept else _stub_lines(region, step, where)
-            names += [region.name] if region.name else []
-            drop_blank = region.name is None and not kept and (not out or not out[-1].strip())
-            region = None
-        elif region is not None:
-            region.body.append(line)
-        else:
-            if not (drop_blank and not line.strip()):
-                out.append(line)
+    for piece in _pieces(solution, where):
+        if isinstance(piece, str):
+            if not (drop_blank and not piece.strip()):
+                out.append(piece)
             drop_blank = False
-    if region is not None:
-        raise GraderFault(f"{where}: a region has no END SOLUTION")
+            continue
+        kept = bool(keep) if piece.name is None else piece.name in keep
+        out += piece.body if kept else _stub_lines(piece, step, where)
+        names += [piece.name] if piece.name else []
+        drop_blank = piece.name is None and not kept and (not out or not out[-1].strip())
     if sorted(names) != sorted(step.functions):
         found, listed = join_and(names or ["none"]), join_and(step.functions)
         raise GraderFault(f"{where}: its regions are {found}, but [functions] of step.toml has {listed}")

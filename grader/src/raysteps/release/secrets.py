@@ -30,7 +30,7 @@ def solution_code(project: Project) -> Texts:
     """Regions by where they stand, and whole files that are alternatives or tell how the judge asks."""
     for step in read_all_steps(project):
         name = f"solutions/{step.path.as_posix()}"
-        for region in solution_regions((project.root / name).read_text(encoding="utf-8")):
+        for region in solution_regions((project.root / name).read_text(encoding="utf-8"), name):
             yield f"{name}:{region.line} ({region.name or 'a helper'})", "\n".join(region.body)
     yield from _files(project, project.solutions, "*/alternatives/*.cpp")
     yield from _files(project, project.solutions, "*/worker.cpp")
