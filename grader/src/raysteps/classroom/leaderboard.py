@@ -16,7 +16,7 @@ from raysteps.classroom.class_document import OTHER_FORM, read_class_document
 from raysteps.classroom.database import FILE, LATEST, explained_sqlite_errors, open_readonly
 from raysteps.common.documents import Amount, Count, Text, checked
 from raysteps.common.errors import UsageError
-from raysteps.common.text import count, name_order, printable, size
+from raysteps.common.text import count, name_order, print_plain, printable, size
 from raysteps.course.manifest import Step
 from raysteps.results.model import Results
 from raysteps.results.store import read_results, stored_results
@@ -226,7 +226,7 @@ def print_nowhere_ranked(console: Console, found: Board, *, anonymous: bool) -> 
     """What `nowhere_ranked` found."""
     console.print("Ranked in none of these steps", style="bold")
     for line in _others(found, anonymous=anonymous):
-        console.print(f"  {printable(line)}", markup=False, highlight=False, soft_wrap=True)
+        print_plain(console, f"  {printable(line)}")
 
 
 def print_board(console: Console, board: Board, *, anonymous: bool, told: Board | None = None) -> None:
@@ -242,7 +242,7 @@ def print_board(console: Console, board: Board, *, anonymous: bool, told: Board 
     if board.not_ranked:
         console.print("Not ranked", style="bold")
         for line in _others(board, anonymous=anonymous):
-            console.print(f"  {printable(line)}", markup=False, highlight=False, soft_wrap=True)
+            print_plain(console, f"  {printable(line)}")
     if len(board.kits) > 1:
         console.print(
             f"Graded by {count(len(board.kits), 'kit')} ({', '.join(board.kits)}), each with a reference of its own: "

@@ -22,6 +22,7 @@ from raysteps.classroom.summary import ProgressMeter, print_summary
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.files import try_lock, usable_folder, wait_for_lock
 from raysteps.common.platform import processor_count, refuse_on_windows
+from raysteps.common.text import print_plain
 from raysteps.course.manifest import STEPS_HELP
 from raysteps.course.project import Project
 from raysteps.course.settings import Course, read_course
@@ -198,7 +199,7 @@ def _again(options: ClassOptions) -> str:
 
 
 def _interrupted(console: Console, again: str) -> int:
-    console.print(f"Interrupted. {again}", markup=False, highlight=False, soft_wrap=True)
+    print_plain(console, f"Interrupted. {again}")
     return 130
 
 
@@ -235,7 +236,7 @@ def _merge(console: Console, folders: list[Path], out: Path) -> int:
         withdraw_tables(out)
         document = _finish(console, database, out)
     for warning in warnings:
-        console.print(f"Warning: {warning}", markup=False, highlight=False, soft_wrap=True)
+        print_plain(console, f"Warning: {warning}")
     if missing:
         console.print(f"Missing: {', '.join(missing)} of the shards", markup=False)
     return GraderFault.exit_code if missing or document.faults or document.not_graded else 0
