@@ -17,17 +17,21 @@
 namespace raysteps::remote {
 namespace {
 
+constinit Wire::Pipes g_pipes{.in = -1, .out = -1};
+
 // Takes the real stdin and stdout away: what a step prints goes to stderr and never between the messages, and what it
 // reads is nothing.
-Wire::Pipes take_pipes() {
-    const Wire::Pipes pipes{dup(0), dup(1)};
+void take_pipes() {
+    g_pipes = {.in = dup(0), .out = dup(1)};
     dup2(2, 1);
     const int nothing = open("/dev/null", O_RDONLY);
     if (nothing >= 0) {
         dup2(nothing, 0);
     }
-    return pipes;
 }
+
+/// Before the constructors of libraries: a step may print while it is loaded.
+__attribute__((section(".preinit_array"), used)) void (*const g_take_pipes)() = take_pipes;
 
 [[maybe_unused]] const bool offered = offer_function<&run_on_processor>(FunctionId::run_on_processor);
 
@@ -68,7 +72,7 @@ void exit_handler(int code, const char* why) {
 
 int main() {
     using namespace raysteps::remote;
-    Session session(Session::Side::box, take_pipes(), exit_handler);
+    Session session(Session::Side::box, g_pipes, exit_handler);
     session.wire().keep_apart(memory_of_steps());
     session.wire().serve();
 }

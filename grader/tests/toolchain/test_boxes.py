@@ -142,3 +142,17 @@ def test_a_box_that_ends_is_what_became_of_the_step(
         rendered = render(LimitsOnly(), program, project.root / case.scene, case.args, limits)
         assert rendered.pixels is None
         assert rendered.ran.outcome.code == code
+
+
+def test_a_step_may_print_and_read_while_it_is_loaded(
+    kit: BuiltKit, project: Project, solved: dict[str, str], tmp_path: Path
+) -> None:
+    """As in one program: the wire is out of its way before the constructors of its library begin."""
+    step = kit.steps[0]
+    talks = "static const bool talked = [] { int x = 0; std::cout << x << std::endl; std::cin >> x; return true; }();\n"
+    source = f"#include <iostream>\n{talks}{solved[step.id]}"
+    binary = _compiled(StudentBuild(kit, LimitsOnly(), tmp_path), step, source)
+    program = _program(kit, step, {step.number: binary}, tmp_path / "program")
+    _, _, rendered = _last_case(step, project, kit, program)
+    assert rendered.pixels is not None, rendered.ran.outcome.stderr
+    assert rendered.ran.outcome.stderr == "0\n"
