@@ -21,7 +21,7 @@ from raysteps.course.manifest import Step
 from raysteps.course.stubs import same_code, tokens, unfinished_functions
 from raysteps.grading.build_messages import compile_message, is_of_a_linker, link_message, missing_name
 from raysteps.images.compare import PictureError, parse_ppm
-from raysteps.images.render import RenderResult, render
+from raysteps.images.render import RenderResult, exit_words, render
 from raysteps.judge.functions import functions_of
 from raysteps.judge.protocol import ProtocolError
 from raysteps.judge.worker import answers_until_trouble
@@ -93,6 +93,11 @@ def test_a_megabyte_of_a_compiler(said: str, steps: list[Step]) -> None:
     assert len(link_message(_ran(said))) < 1000
     assert is_of_a_linker(said) or missing_name(said) is None
     harmless_log(clean(said, _MEGABYTE))
+
+
+@pytest.mark.parametrize("piece", ["symbol lookup error: ", "symbol lookup error: a: undefined symbol: ", "\x1b[0;"])
+def test_a_megabyte_of_last_words(piece: str) -> None:
+    assert len(exit_words(_ran(piece * (_MEGABYTE // len(piece))).outcome)) < 300
 
 
 _NAMES = ["a ", " a", "a 0 ", " U", "x U 0 ", "0 ", "\t", "a\x0b"]

@@ -15,6 +15,7 @@ from raysteps.images.noise import Estimates, read_estimates
 from raysteps.images.render import (
     PictureCriteria,
     RenderResult,
+    describe_exit,
     exit_words,
     judge_picture,
     pixel_credit,
@@ -150,3 +151,12 @@ def test_what_the_loader_does_not_find_is_told_in_words(folder: str, symbol: str
     words = exit_words(Outcome(127, False, "", said, 0.1))
     assert words == (f"exit code 127: the program asks for {name}, which is defined nowhere that it could see")
     assert exit_words(Outcome(2, False, "", "raytrace: no such scene\n", 0.1)) == "exit code 2: raytrace: no such scene"
+
+
+def test_a_program_that_ends_itself_with_0_is_told_so() -> None:
+    """Nobody finds a call of exit(0) by hearing that there is no picture."""
+    ended = TaskResult(Outcome(0, False, "", "", 0.1), {"picture": b"", "stats": b""}, 0.1, "")
+    words = "The picture was not made: the program gave up with exit code 0, as by a call of exit(0)."
+    assert describe_exit(ended, "The picture") == ("crashed", words)
+    odd = replace(ended, outputs={"picture": b"P3"})
+    assert describe_exit(odd, "The picture") == ("wrong", "")

@@ -367,17 +367,19 @@ def not_in_time(what: str, seconds: float, *, sooner: bool) -> str:
 
 # As the loader says it of a function that is no C++, which the linker leaves to the loader; a source can hide it there.
 _NOWHERE = re.compile(r"symbol lookup error: .+?: undefined symbol: ([^\s,]+)")
+_LONGEST_LINE = 2000  # characters of the last one that are looked through
 
 
 def exit_words(outcome: Outcome) -> str:
     """The exit code of a program that gave up, and its last words."""
-    last = outcome.stderr.strip().rpartition("\n")[2]
+    last = outcome.stderr.strip().rpartition("\n")[2][:_LONGEST_LINE]
     nowhere = _NOWHERE.search(last)
     if nowhere is not None:
         name = unqualified_name(nowhere[1]) or nowhere[1]
         last = f"the program asks for {shorten(name, 100)}, which is defined nowhere that it could see"
     said = shorten(printable(last), 200)
-    return f"exit code {outcome.code}" + (f": {said}" if said else "")
+    code = f"exit code {outcome.code}" + ("" if outcome.code else ", as by a call of exit(0)")
+    return f"{code}: {said}" if said else code
 
 
 def describe_exit(ran: TaskResult, what: str, *, sooner: bool = False) -> tuple[Termination, str]:
@@ -389,7 +391,7 @@ def describe_exit(ran: TaskResult, what: str, *, sooner: bool = False) -> tuple[
         return "timeout", not_in_time(what, outcome.seconds, sooner=sooner)
     if outcome.signal_name is not None:
         return "crashed", f"{what} was not made: the program crashed ({outcome.signal_words})."
-    if outcome.code != 0:
+    if outcome.code != 0 or not any(ran.outputs.values()):
         words = exit_words(outcome)
         return "crashed", f"{what} was not made: the program gave up with {words}{'' if ': ' in words else '.'}"
     return "wrong", ""
