@@ -97,7 +97,9 @@ _WRONG = {
     "float f(float a, float b) { return 2.0F * a ^ b; }": "a power is std::pow",
     "float f(float a) { return a % 2; }": "a remainder std::fmod",
     "const char* f() { return \u201chello\u201d; }": "type it anew",
-    "float f(float a) { return 2.0F \u2013 a; }": "type it anew",
+    "float f(float a) { return 2.0F \u2013 a; }": "is another: type it anew",
+    "float f(float a) { return a\u200b; }": "nobody sees",
+    "float f(float a) { return \ufeffa; }": "nobody sees",
     "int f() { return 1; }\nint f() { return 1; }": "keep one of them",
     "float f(float a, float b, float c) { return std::max(a, b, c); }": "for three write",
 }

@@ -94,6 +94,10 @@ IN_OTHER_WORDS = (
         "behind it.",
     ),
     (
+        r"\u27e8U\+|character <U\+(?:00AD|20(?:0[B-F]|2[A-E]|6)|FEFF)",
+        "There is a sign in it that nobody sees, as copied text may have: delete what stands there, and type it anew.",
+    ),
+    (
         r"(?:'operator[-+*/]=?'(?: in '.*')? \(operand types are|invalid operands|C267[6-9]: binary '[-+*/])"
         r"(?=.*'(?:const )?(?:glm::)?vec\W?\d)(?=.*'(?:const )?(?:unsigned |long )*(?:int|double|long)\b)",
         "A vector of glm takes floats only: write 2.0F, not 2 or 2.0, or float(x).",
