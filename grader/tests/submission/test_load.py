@@ -15,7 +15,7 @@ from typing import Literal
 import pytest
 
 from raysteps.classroom.entries import ClassEntry, load_entry
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import run
 from raysteps.course.manifest import Step
 from raysteps.submission import entries
@@ -295,6 +295,15 @@ def test_where_a_class_lies_is_not_told(tmp_path: Path, steps: list[Step]) -> No
     (tmp_path / "secret" / "anna" / "homework.zip").write_bytes(b"PK\3\4 but no more")
     notes = load_entry("anna", ClassEntry(tmp_path / "secret" / "anna", "anna"), steps).submission.notes
     assert all("homework.zip: cannot be read" in note and "secret" not in note for note in notes.values())
+
+
+@pytest.mark.parametrize(("made", "why"), [(False, "is not there any more"), (True, "is a link that leads nowhere")])
+def test_an_entry_that_is_gone_is_no_zero(steps: list[Step], tmp_path: Path, *, made: bool, why: str) -> None:
+    entry = tmp_path / "anna"
+    if made:
+        entry.symlink_to("anna")
+    with pytest.raises(GraderFault, match=f"anna: {why}"):
+        load_entry("anna", ClassEntry(entry, "anna"), steps)
 
 
 def test_an_archive_that_is_a_link_is_not_followed(tmp_path: Path, steps: list[Step]) -> None:

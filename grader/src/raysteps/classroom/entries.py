@@ -182,7 +182,8 @@ def load_entry(name: str, entry: ClassEntry, steps: list[Step]) -> LoadedEntry:
         if entry.leads_to:
             raise UsageError(ANOTHERS)
         if not path.exists():
-            raise GraderFault(f"{path}: is not there any more")
+            why = "is a link that leads nowhere" if path.is_symlink() else "is not there any more"
+            raise GraderFault(f"{path}: {why}")
         if path.is_dir() and not os.access(path, os.R_OK | os.X_OK):
             raise GraderFault(f"{path}: this folder must not be read: no permission")
         return LoadedEntry(replace(load_submission(path, steps), name=name))
