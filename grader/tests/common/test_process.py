@@ -25,6 +25,20 @@ def test_a_crash_has_a_name() -> None:
     assert _python("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)").signal_name == "SIGSEGV"
 
 
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("terminate called after throwing\n  what():  no table\x1b[2J\n", "an exception that nobody caught: no table"),
+        ("1\na.cpp:3: int f(int): Assertion `n < 9' failed.\n", "an assertion that does not hold: n < 9"),
+        ("optional:477: int get(): Assertion 'engaged()' failed.", "an assertion that does not hold: engaged()"),
+        ("  what():  no table\nlater\n", "an exception that nobody caught, or an assertion that does not hold"),
+        ("Assertion '" * 90_000, "an exception that nobody caught, or an assertion that does not hold"),
+    ],
+)
+def test_an_abort_is_told_in_the_programs_own_words(said: str, told: str) -> None:
+    assert Outcome(-6, timed_out=False, stdout="", stderr=said, seconds=0).signal_words == f"SIGABRT: {told}"
+
+
 def test_a_hang_is_stopped() -> None:
     start = time.monotonic()
     outcome = _python("import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); time.sleep(60)", seconds=1)

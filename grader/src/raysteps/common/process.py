@@ -1,6 +1,7 @@
 """Runs a program that is trusted, with a time limit and a cap on what it may say. Others run in a sandbox."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,6 +12,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
+
+from raysteps.common.text import printable, shorten
 
 # A program and all that it starts, to be ended together: as a process group, or as a job on Windows.
 
@@ -126,8 +129,12 @@ class Outcome:
 
     @property
     def signal_words(self) -> str | None:
-        """The signal, and what it usually means."""
+        """The signal, and what it usually means, or what the program said of it."""
         name = self.signal_name
+        why = _WHY_ABORTED.search(self.stderr.rstrip().rpartition("\n")[2][-_LONGEST_LINE:])
+        if name == "SIGABRT" and why is not None:
+            kind = "an exception that nobody caught" if why["what"] else "an assertion that does not hold"
+            return f"{name}: {kind}: {shorten(printable(why['what'] or why['rule']), 200)}"
         return f"{name}: {_MEANINGS[name]}" if name in _MEANINGS else name
 
 
@@ -138,6 +145,9 @@ _MEANINGS = {
     "SIGILL": "a whole number was divided by 0, or a function ended without a return",
     "SIGABRT": "an exception that nobody caught, or an assertion that does not hold",
 }
+# As the libraries of C++ and C say it in a program's last line.
+_WHY_ABORTED = re.compile(r"^ *what\(\): +(?P<what>.+)|Assertion [`'](?P<rule>.+)' failed")
+_LONGEST_LINE = 2000  # characters of it that are looked through
 
 
 def _has_ended_in_time(process: "subprocess.Popen[bytes]", pipes: Sequence[PipeReader], deadline: float) -> bool:

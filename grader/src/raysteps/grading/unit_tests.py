@@ -306,7 +306,7 @@ def hang_line(said: str, files: Collection[str]) -> str:
     return f"{stuck.file}, {words}, in {stuck.function}: still at work when it was stopped."
 
 
-_GUESS = re.compile(r"\((SIG[A-Z]{2,5}): [^()]{1,100}\)")
+_GUESS = re.compile(r"\((SIG[A-Z]{2,5}): [^():]{1,100}\)")
 
 
 def tell_crash_line(
