@@ -39,7 +39,8 @@ public:
             if (light == k_black) {
                 return;
             }
-            if (!(sample.pdf > 0.0F)) {  // of point lights
+            const bool is_of_point_lights = !(sample.pdf > 0.0F);
+            if (is_of_point_lights) {
                 samples.push_back({.light = light, .pdf = 1.0F});
                 return;
             }
