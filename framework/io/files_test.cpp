@@ -1,47 +1,21 @@
 // Files are written whole or not at all.
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "io/files.hpp"
 #include "testing/catch.hpp"
+#include "testing/temporary_folder.hpp"
 
 using namespace raysteps;
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// An empty folder for one test.
-class Folder {
-public:
-    Folder() : path_(fs::temp_directory_path() / "raysteps-write-file-test") {
-        fs::remove_all(path_);
-        fs::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
-    [[nodiscard]] auto files() const { return std::distance(fs::directory_iterator(path_), fs::directory_iterator()); }
-
-private:
-    fs::path path_;
-};
-
-}  // namespace
-
 TEST_CASE("a file is made or replaced, byte for byte", "[write_file]") {
-    const Folder folder;
+    const testing::TemporaryFolder folder;
     const std::string bytes("a\r\n\0b\x1a", 6);
     write_file(folder / "out", "something longer than that");
     write_file(folder / "out", bytes);
@@ -50,7 +24,7 @@ TEST_CASE("a file is made or replaced, byte for byte", "[write_file]") {
 }
 
 TEST_CASE("a text in UTF-16 is refused in words", "[read_text]") {
-    const Folder folder;
+    const testing::TemporaryFolder folder;
     for (const std::string_view start : {"\xff\xfe", "\xfe\xff", ""}) {
         write_file(folder / "scene.nff", std::string(start) + std::string("\0v\0\n", 4));
         CHECK_THROWS_WITH(read_text(folder / "scene.nff"),
@@ -62,7 +36,7 @@ TEST_CASE("a text in UTF-16 is refused in words", "[read_text]") {
 }
 
 TEST_CASE("a failure leaves nothing behind and says which file", "[write_file]") {
-    const Folder folder;
+    const testing::TemporaryFolder folder;
     fs::create_directory(folder / "taken");
     CHECK_THROWS_WITH(write_file(folder / "taken", "x"),
                       display_name(folder / "taken") + ": cannot be written: it is a directory");
@@ -72,7 +46,7 @@ TEST_CASE("a failure leaves nothing behind and says which file", "[write_file]")
 
 #ifndef _WIN32
 TEST_CASE("a link is followed and a device is not replaced", "[write_file]") {
-    const Folder folder;
+    const testing::TemporaryFolder folder;
     write_file(folder / "target", "old");
     fs::create_symlink("target", folder / "link");
     write_file(folder / "link", "new");

@@ -10,6 +10,7 @@
 #include "io/texture_reader.hpp"
 #include "testing/catch.hpp"
 #include "testing/matchers.hpp"
+#include "testing/temporary_folder.hpp"
 
 using namespace raysteps;
 using namespace raysteps::testing;
@@ -168,11 +169,11 @@ TEST_CASE("bad OBJ files", "[obj][errors]") {
 }
 
 TEST_CASE("an OBJ file in UTF-16 is told as such", "[obj][errors]") {
-    const auto path = std::filesystem::temp_directory_path() / "raysteps-utf-16.obj";
+    const testing::TemporaryFolder folder;
+    const auto path = folder / "utf-16.obj";
     write_file(path, std::string("\xff\xfev\0\n\0", 6));
     CHECK(error_of([&] { return read_obj(path); }) ==
           display_name(path) + ":1:1: expected a text in UTF-8, found one in UTF-16: save it in UTF-8");
-    std::filesystem::remove(path);
 }
 
 TEST_CASE("textures: a screen's bytes become light", "[texture]") {

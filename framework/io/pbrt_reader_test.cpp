@@ -9,6 +9,7 @@
 #include "io/nff_reader.hpp"
 #include "testing/catch.hpp"
 #include "testing/matchers.hpp"
+#include "testing/temporary_folder.hpp"
 
 using namespace raysteps;
 using namespace raysteps::testing;
@@ -371,8 +372,7 @@ TEST_CASE("a scene that came as text names no files", "[pbrt][errors]") {
 }
 
 TEST_CASE("meshes and other files beside a scene", "[pbrt]") {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "raysteps-pbrt-test";
-    std::filesystem::create_directories(folder);
+    const testing::TemporaryFolder folder;
     write_file(folder / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write_file(folder / "empty.obj", "v 0 0 0\n");
     write_file(folder / "more.pbrt", "Shape \"objmesh\" \"string filename\" \"mesh.obj\"\n");
@@ -403,5 +403,4 @@ TEST_CASE("meshes and other files beside a scene", "[pbrt]") {
               .ends_with("none.ply: expected a file, found nothing of that name"));
     CHECK(complaint("Include \"endless.pbrt\"")
               .ends_with("endless.pbrt:1:1: expected at most 8 files that include each other, found one more"));
-    std::filesystem::remove_all(folder);
 }

@@ -5,6 +5,7 @@
 #include "io/ppm.hpp"
 #include "testing/catch.hpp"
 #include "testing/string_makers.hpp"
+#include "testing/temporary_folder.hpp"
 
 using namespace raysteps;
 using namespace std::string_literals;
@@ -19,11 +20,9 @@ Image small_picture() {
 }
 
 std::string written(const std::string& name) {
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / path_of(name);
-    write_picture(small_picture(), path);
-    const std::string bytes = read_file(path);
-    std::filesystem::remove(path);
-    return bytes;
+    const testing::TemporaryFolder folder;
+    write_picture(small_picture(), folder / path_of(name));
+    return read_file(folder / path_of(name));
 }
 
 }  // namespace
@@ -37,8 +36,8 @@ TEST_CASE("A PNG has a header of 8 bits a channel, and ends", "[io]") {
 }
 
 TEST_CASE("The name of a picture says what is written", "[io]") {
-    CHECK(written("raysteps-picture-test.png") == png_bytes(small_picture()));
-    CHECK(written("raysteps-picture-test.PNG") == png_bytes(small_picture()));
-    CHECK(read_ppm(written("raysteps-picture-test.ppm"), "picture") == small_picture());
-    CHECK(written("raysteps-picture-test") == ppm_bytes(small_picture()));
+    CHECK(written("picture.png") == png_bytes(small_picture()));
+    CHECK(written("picture.PNG") == png_bytes(small_picture()));
+    CHECK(read_ppm(written("picture.ppm"), "picture") == small_picture());
+    CHECK(written("picture") == ppm_bytes(small_picture()));
 }
