@@ -42,6 +42,8 @@ TEST_CASE("a viewpoint that shows nothing", "[nff][errors]") {
           "bad.nff:3:1: expected `at` apart from `from`, found the same point");
     CHECK(error_of("v\nfrom 1 2 3\nat 0 0 0\nup 0 0 0\nangle 45\n") ==
           "bad.nff:4:1: expected `up` with a length above 0, found a zero vector");
+    CHECK(error_of("v\nfrom 1 2 3\nat 0 0 0\nup 0 0 1e-30\nangle 45\n").ends_with(", found one too short for floats"));
+    CHECK(error_of("v\nfrom 0 0 0\nat 0 0 1e-30\nup 0 1 0\nangle 45\n").ends_with(", found one too near for floats"));
     CHECK(error_of("v\nfrom 0 0 3\nat 0 0 0\nup 0 0 -7\nangle 45\n") ==
           "bad.nff:4:1: expected `up` at an angle to the view, found a parallel vector");
     CHECK(error_of("v\nfrom 0 0 5\nat 0 0 0\nup 0 2e-24 1.1e-19\nangle 45\n") ==
@@ -49,7 +51,7 @@ TEST_CASE("a viewpoint that shows nothing", "[nff][errors]") {
     for (const std::string angle : {"0", "180", "-45", "179.9999999999"}) {
         CHECK(error_of("v from 1 2 3 at 0 0 0 up 0 0 1 angle " + angle) ==
               "bad.nff:1:38: expected `angle` above 0 and below 180 degrees, found `" + angle + "`" +
-                  (angle.size() > 20 ? "..." : ""));
+                  (angle.size() > 4 ? ", which as a float is 180" : ""));
     }
     for (const std::string size : {"0", "16385", "-1", "2.5", "99999999999"}) {
         CHECK(error_of("v resolution 1 " + size) ==
@@ -75,6 +77,8 @@ TEST_CASE("surfaces that are none", "[nff][errors]") {
     CHECK(error_of(k_view + "s 0 0 0 1") == "bad.nff:6:1: expected a fill `f` before the first surface, found `s`");
     CHECK(error_of(k_start + "s 0 0 0 0.0") ==
           "bad.nff:7:9: expected radius of the sphere, a number other than 0, found `0.0`");
+    CHECK(error_of(k_start + "s 0 0 0 -1e-46").ends_with(", found `-1e-46`, which as a float is -0"));
+    CHECK(error_of(k_start + "c 0 0 0 0 0 0 1 1e-46").ends_with(", found `1e-46`, which as a float is 0"));
     CHECK(error_of(k_start + "c 0 0 0 1 0 0 0 2") ==
           "bad.nff:7:11: expected the cone's apex apart from its base, found the same point");
     CHECK(error_of(k_start + "c 0 0 0 1 0 0 1 -2").find(":7:17: expected radii of the same sign") != std::string::npos);

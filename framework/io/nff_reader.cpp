@@ -78,7 +78,7 @@ private:
         const Token token = scanner_.peek();
         camera_.angle = fields_.number("`angle` in degrees");
         if (!(camera_.angle > 0.0F && camera_.angle < 180.0F)) {
-            scanner_.fail(token, "`angle` above 0 and below 180 degrees");
+            scanner_.fail_as_float(token, "`angle` above 0 and below 180 degrees");
         }
     }
 
@@ -95,10 +95,13 @@ private:
     void check_directions() {
         const glm::vec3 view = camera_.at - camera_.from;
         if (glm::dot(view, view) < std::numeric_limits<float>::min()) {
-            scanner_.fail(known("at")->seen, "`at` apart from `from`", "the same point");
+            const bool same = camera_.at == camera_.from;
+            scanner_.fail(known("at")->seen, "`at` apart from `from`",
+                          same ? "the same point" : "one too near for floats");
         }
         if (glm::dot(camera_.up, camera_.up) < std::numeric_limits<float>::min()) {
-            scanner_.fail(known("up")->seen, "`up` with a length above 0", "a zero vector");
+            scanner_.fail(known("up")->seen, "`up` with a length above 0",
+                          camera_.up == glm::vec3(0.0F) ? "a zero vector" : "one too short for floats");
         }
         const glm::dvec3 side = glm::cross(glm::normalize(glm::dvec3(view)), glm::normalize(glm::dvec3(camera_.up)));
         const double across = glm::length(side) * glm::length(glm::dvec3(camera_.up));  // what step 01 makes a unit of

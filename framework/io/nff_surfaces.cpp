@@ -88,7 +88,7 @@ void read_sphere(TokenScanner& scanner, const Fill& fill, Scene& scene) {
     } else if (radius < 0.0F) {
         scene.add(std::make_unique<InwardSphere>(center, -radius, fill));
     } else {
-        scanner.fail(place, "radius of the sphere, a number other than 0");
+        scanner.fail_as_float(place, "radius of the sphere, a number other than 0");
     }
 }
 
@@ -108,7 +108,7 @@ void read_cone(TokenScanner& scanner, const Fill& fill, Scene& scene) {
         scanner.fail(radius_place, "radii of the same sign at the cone's base and apex");
     }
     if (low == high && low == 0.0F) {
-        scanner.fail(radius_place, "a cone with a radius other than 0 at one end at least");
+        scanner.fail_as_float(radius_place, "a cone with a radius other than 0 at one end at least");
     }
     if (base.center == apex.center) {
         scanner.fail(place, "the cone's apex apart from its base", "the same point");

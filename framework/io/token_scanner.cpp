@@ -123,6 +123,13 @@ void TokenScanner::fail(const Token& token, std::string_view expected, std::stri
     throw ReadError(name_, token.line, token.column, expected, found);
 }
 
+void TokenScanner::fail_as_float(const Token& token, std::string_view expected) const {
+    const std::optional<double> typed = parse_number(token.text);
+    const std::string as_float = number_text(static_cast<float>(typed.value_or(0.0)));
+    const bool is_another = typed && parse_number(as_float) != typed;
+    fail(token, expected, quoted(token.text) + (is_another ? ", which as a float is " + as_float : ""));
+}
+
 void TokenScanner::skip_blanks() {
     while (offset_ < text_.size() && ends_token(text_[offset_])) {
         if (text_[offset_] == '#') {

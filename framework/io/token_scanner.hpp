@@ -42,6 +42,9 @@ public:
     [[noreturn]] void fail(const Token& token, std::string_view expected) const;
     [[noreturn]] void fail(const Token& token, std::string_view expected, std::string_view found) const;
 
+    /// At a number that is wrong as a float, which may be another one than the token's: that is said, too.
+    [[noreturn]] void fail_as_float(const Token& token, std::string_view expected) const;
+
 private:
     void skip_blanks();
     void end_line();
