@@ -154,6 +154,21 @@ def test_sets_are_installed_when_they_are_first_needed(tmp_path: Path, monkeypat
     assert kit.type("list") == ["new", "/grader[dev,instructor]"]
 
 
+def test_a_wrong_word_is_refused_before_anything_is_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    really_run = subprocess.run
+    kit = _Kit(tmp_path / "kit", monkeypatch, "solutions", "tools", "grader/tests")
+    kit.type("list")
+    monkeypatch.setattr(subprocess, "run", really_run)
+    monkeypatch.setattr(Venv, "is_made", lambda one: True)
+    monkeypatch.setattr(Venv, "python", sys.executable)
+    kit.ran.clear()
+    assert start.main(str(kit.root), ["play", "--port", "8000", "03"]) == 2
+    assert "'03': expected nothing more" in capfd.readouterr().err
+    assert kit.ran == []
+
+
 def test_another_kits_packages_are_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     others = _Kit(tmp_path / "others", monkeypatch)
     assert others.type("list") == ["new", "/grader"]

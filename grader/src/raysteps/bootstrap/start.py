@@ -24,6 +24,8 @@ def main(root: str, words: list[str]) -> int:
         if not venv.is_made():
             _set_up(venv, wanted)
         elif not venv.has(wanted):
+            if not venv.understands(words):  # told before anything is installed for it
+                return _USAGE
             venv.add(wanted, " ".join(words[:2] if words[0] == "dev" else words[:1]))
         elif venv.is_this():
             sys.argv[1:] = words

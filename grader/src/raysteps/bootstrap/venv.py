@@ -126,6 +126,13 @@ class Venv:
             return True
         return bool({wanted, MAKER} & self._installed()[1])
 
+    def understands(self, words: Sequence[str]) -> bool:
+        """Whether the command takes these words; if not, it has said why."""
+        import subprocess  # takes long to load, and is rarely needed
+
+        read = "import sys; from raysteps.cli.app import parse; parse(sys.argv[1:])"
+        return subprocess.run([self.python, "-X", "utf8", "-P", "-c", read, *words], check=False).returncode == 0
+
     def make(self, wanted: str = "") -> None:
         """Anew, with the usual set, the one that is wanted and those that were there before."""
         if self.folder.is_symlink():

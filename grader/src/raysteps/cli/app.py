@@ -104,7 +104,7 @@ EXAMPLES = {
 
 
 # What is meant by those that take no step, where one is named.
-_FOR_STEPS = {"test": "check", "list": "check", "next": "hint"}
+_FOR_STEPS = {"test": "check", "list": "check", "next": "hint", "play": "watch"}
 
 
 # What a students' kit has in their place; else what there is.
@@ -277,6 +277,11 @@ def as_options(words: Sequence[str]) -> list[str]:
         case ["version"]:
             return ["--version"]
     return list(words)
+
+
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    """The arguments of a command; what is wrong with them is said, and ends the process."""
+    return new_parser(here(), words[0]).parse_args(words)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
