@@ -1,6 +1,7 @@
 """The commands `list` and `next`."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from course_fakes import checked, printed, small_project, text, write_own
@@ -10,6 +11,7 @@ from raysteps.course.manifest import Step, read_steps
 from raysteps.course.project import Project, here
 from raysteps.progress.hints import print_hint
 from raysteps.progress.standing import list_steps, load_progress, next_of, next_step, save_progress, standings
+from raysteps.submission import load
 
 _CODE = "int answer() { return 42; }\n"
 
@@ -172,6 +174,24 @@ def test_a_file_that_check_finds_elsewhere_is_not_to_be_reset(course: Project, s
     console = printed()
     next_step(course, console)
     assert "type   ./raysteps check 01" in text(console)
+
+
+def test_files_that_are_missing_are_looked_for_once(
+    course: Project, steps: list[Step], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    walks: list[Path] = []
+    really = load._reader
+
+    def counted(folder: Path) -> Any:
+        walks.append(folder)
+        return really(folder)
+
+    monkeypatch.setattr(load, "_reader", counted)
+    for step in steps[:3]:
+        path = course.steps / step.path
+        path.rename(path.with_name(f"{path.name}.txt"))
+    assert all("txt" in standing.closed for standing in standings(course)[:3])
+    assert walks == [course.steps]
 
 
 def test_what_is_only_closed_is_not_to_be_reset(course: Project, steps: list[Step]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -131,17 +131,22 @@ def own_source(project: Project, step: Step) -> bytes | None:
         return None
 
 
-def misplaced(project: Project, step: Step) -> str:
-    """Of a step whose file is not there: which one may be meant or is taken for it, such as phong_shading.cpp.txt, or
-    nothing."""
-    from raysteps.submission.load import load_submission  # rarely, and it takes long to load
+def misplaced(project: Project, steps: Sequence[Step]) -> dict[str, str]:
+    """Of steps whose files are not there, by id: which one may be meant or is taken for it, such as
+    phong_shading.cpp.txt."""
+    from raysteps.submission.load import load_each  # rarely, and it takes long to load
 
     try:
-        found = load_submission(project.steps, [step])
-    except UsageError:  # nothing that could be meant
-        return ""
-    there = f"{step.file} lies elsewhere; it belongs at steps/{step.path.as_posix()}." if found.sources else ""
-    return found.notes.get(step.id) or found.remarks.get(step.id) or there
+        each = load_each(project.steps, steps)
+    except UsageError:  # more files than anybody looks through
+        return {}
+
+    def words(step: Step) -> str:
+        found = each[step.id]
+        there = f"{step.file} lies elsewhere; it belongs at steps/{step.path.as_posix()}." if found.sources else ""
+        return found.notes.get(step.id) or found.remarks.get(step.id) or there
+
+    return {step.id: words(step) for step in steps}
 
 
 def step_progress(project: Project, step: Step, last: LastCheck | None) -> StepProgress:
@@ -153,7 +158,7 @@ def step_progress(project: Project, step: Step, last: LastCheck | None) -> StepP
     except RejectedFile:
         return StepProgress(step, "unreadable")
     if source is None:
-        return StepProgress(step, "missing", closed=misplaced(project, step))
+        return StepProgress(step, "missing")
     text = source.decode("utf-8", "replace")
     if same_code(text, pristine_stub(project, step)):
         return StepProgress(step, "not-started", unfinished=step.functions)
@@ -166,7 +171,10 @@ def step_progress(project: Project, step: Step, last: LastCheck | None) -> StepP
 def standings(project: Project) -> list[StepProgress]:
     """Of all steps, in order."""
     known = load_progress(project)
-    return [step_progress(project, step, known.get(step.id)) for step in course_steps(project)]
+    found = [step_progress(project, step, known.get(step.id)) for step in course_steps(project)]
+    missing = [standing.step for standing in found if standing.kind == "missing"]
+    there = misplaced(project, missing) if missing else {}
+    return [replace(standing, closed=there.get(standing.step.id, standing.closed)) for standing in found]
 
 
 def next_of(found: Sequence[StepProgress], after: Step | None = None) -> Step | None:

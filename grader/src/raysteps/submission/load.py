@@ -370,6 +370,18 @@ def load_submission(path: Path, steps: list[Step]) -> Submission:
     raise UsageError(f"{path}: holds no step{more}; expected files like steps/{steps[0].path.as_posix()}")
 
 
+def load_each(folder: Path, steps: Sequence[Step]) -> dict[str, Submission]:
+    """What a folder holds of each step, by id, as if it were the only one: the folder is gone through once for all."""
+    collectors = {step.id: _Collector([step]) for step in steps}
+    reader = _reader(folder)
+    for entry in reader.entries():
+        for collector in collectors.values():
+            collector.take(iter((entry,)))
+    for collector in collectors.values():
+        collector.cannot_look_into(reader.closed)
+    return {step: collector.submission(submission_name(folder)) for step, collector in collectors.items()}
+
+
 def _load(path: Path, steps: list[Step], *, may_be_link: bool) -> Submission:
     """Nothing but a name where there is no step."""
     collector = _Collector(steps)

@@ -164,7 +164,7 @@ def look(project: Project, name: str) -> None:
         return
     if source is None:
         there = f"{step.file} is not there; {own_command()} reset {step.number} puts the stub there"
-        _tell(WorkerLine(error=misplaced(project, step) or there))
+        _tell(WorkerLine(error=misplaced(project, [step]).get(step.id) or there))
         return
     tell(QuickLook(kit, step, LimitsOnly(), out, tell, _say).look(source.decode("utf-8", "replace")), complete=True)
 
