@@ -342,3 +342,26 @@ def test_a_class_is_no_submission(tmp_path: Path, steps: list[Step], names: list
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("int x;")
     assert submissions_inside(tmp_path, steps) == held
+
+
+@pytest.mark.parametrize(
+    ("folder", "archives", "held"),
+    [
+        ("anna", ["ben.zip", "notes.zip"], ["anna", "ben.zip", "notes.zip"]),
+        (None, ["ben.zip", "cleo.zip"], ["ben.zip", "cleo.zip"]),
+        ("ben", ["ben.zip"], []),  # unpacked beside it
+        ("anna", ["notes.zip"], []),
+        (None, ["ben.zip"], []),  # as platforms put a student's upload
+        (".", ["ben.zip"], []),
+    ],
+)
+def test_archives_in_a_folder_are_a_class(
+    tmp_path: Path, steps: list[Step], folder: str | None, archives: list[str], held: list[str]
+) -> None:
+    if folder is not None:
+        (tmp_path / folder / "04-shadows").mkdir(parents=True)
+        (tmp_path / folder / "04-shadows" / "shadows.cpp").write_text("int x;")
+    for name in archives:
+        with zipfile.ZipFile(tmp_path / name, "w") as archive:
+            archive.writestr("notes.txt" if name == "notes.zip" else "steps/04-shadows/shadows.cpp", "int x;")
+    assert submissions_inside(tmp_path, steps) == held

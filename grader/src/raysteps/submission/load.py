@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from pathlib import Path
 
 from raysteps.common.documents import Text
@@ -291,7 +292,8 @@ def without_place(error: UsageError, path: Path) -> str:
 
 
 def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
-    """The folders in a folder that each hold a file of the same step, where it holds none itself: a class."""
+    """What lies in a folder that holds no step itself, where it is a class: folders that each hold a file of the same
+    step, or archives, or a single folder and archives."""
     if not path.is_dir():
         return []
     places, homes = SourceLocator(steps), dict[str, set[tuple[str, ...]]]()
@@ -300,7 +302,21 @@ def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
     if any(() in found for found in homes.values()):
         return []
     highest = [_highest(found) for found in homes.values()]  # what lies further down is somebody's old copy
-    return sorted({"/".join(home) for found in highest if len(found) > 1 for home in found})
+    folders = {"/".join(home) for found in highest for home in found}
+    several = {"/".join(home) for found in highest if len(found) > 1 for home in found}
+    packed = [one for one in _packed_in(path) if submission_name(one) not in folders] if len(folders) < 2 else []
+    with_a_step = islice((one for one in packed if _holds_a_step(one, steps)), 2)  # two of them are enough
+    if len(folders) + len([*with_a_step]) > 1 and packed:
+        several = folders | {one.name for one in packed}
+    return sorted(several)
+
+
+def _holds_a_step(archive: Path, steps: list[Step]) -> bool:
+    try:
+        found = _load(archive, steps, may_be_link=False)
+    except UsageError:
+        return False
+    return bool(found.sources or found.notes)
 
 
 def is_submission(path: Path, steps: list[Step]) -> bool:
