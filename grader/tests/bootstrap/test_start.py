@@ -6,7 +6,9 @@ import shlex
 import shutil
 import subprocess
 import sys
+import threading
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -167,6 +169,22 @@ def test_a_wrong_word_is_refused_before_anything_is_installed(
     assert start.main(str(kit.root), ["play", "--port", "8000", "03"]) == 2
     assert "'03': expected nothing more" in capfd.readouterr().err
     assert kit.ran == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such locks")
+def test_what_another_command_sets_up_meanwhile_is_not_set_up_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kit = _Kit(tmp_path / "kit", monkeypatch, "solutions")
+    one, waits = Venv(kit.root), threading.Event()
+    monkeypatch.setattr(venv, "say", lambda text: waits.set() if text.startswith("waiting") else None)
+    with ThreadPoolExecutor() as pool, one.alone():
+        other = pool.submit(start.main, str(kit.root), ["list"])
+        assert waits.wait(60)
+        one.make()
+        one_ran = [*kit.ran]
+    assert other.result() == 0
+    assert kit.ran == one_ran == ["new", "/grader[instructor]"]
 
 
 def test_another_kits_packages_are_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,16 +17,25 @@ def _set_up(venv: Venv, wanted: str) -> None:
     venv.make(wanted)
 
 
+def _complete(venv: Venv, wanted: str, words: list[str]) -> bool:
+    """Brings what another command has not brought meanwhile; not for words that the command does not take."""
+    if not venv.is_made():
+        _set_up(venv, wanted)
+    elif not venv.has(wanted):
+        if not venv.understands(words):
+            return False
+        venv.add(wanted, " ".join(words[:2] if words[0] == "dev" else words[:1]))
+    return True
+
+
 def main(root: str, words: list[str]) -> int:
     """Sets up what is missing, once, and runs the command: in this process where it is the right one already."""
     venv, wanted = Venv(Path(root)), set_for(words)
     try:
-        if not venv.is_made():
-            _set_up(venv, wanted)
-        elif not venv.has(wanted):
-            if not venv.understands(words):  # told before anything is installed for it
-                return _USAGE
-            venv.add(wanted, " ".join(words[:2] if words[0] == "dev" else words[:1]))
+        if not (venv.is_made() and venv.has(wanted)):
+            with venv.alone():
+                if not _complete(venv, wanted, words):
+                    return _USAGE
         elif venv.is_this():
             sys.argv[1:] = words
             from raysteps.cli.app import run_process

@@ -3,7 +3,8 @@
 import hashlib
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 
@@ -125,6 +126,20 @@ class Venv:
         if not wanted or (wanted == MAKER and not (self.root / "tools").is_dir()):
             return True
         return bool({wanted, MAKER} & self._installed()[1])
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """Only one command at a time changes it; another one waits. Where there are no locks, nobody waits."""
+        with (self.root / "grader" / "pyproject.toml").open("rb") as file:
+            with suppress(ImportError, OSError):
+                import fcntl
+
+                try:
+                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except BlockingIOError:
+                    say("waiting for another command, which sets up .venv")
+                    fcntl.flock(file, fcntl.LOCK_EX)
+            yield
 
     def understands(self, words: Sequence[str]) -> bool:
         """Whether the command takes these words; if not, it has said why."""
