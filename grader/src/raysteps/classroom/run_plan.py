@@ -92,7 +92,7 @@ def read_text(path: Path) -> str:
         raise UsageError(f"{path}: the late policy cannot be read: {reason(error)}; {expected}{like(path)}") from error
 
 
-# What the last run was given beside the submissions: a --resume that does not name it anew uses it again.
+# What the last run was given beside the submissions: a run that does not name it anew uses it again.
 
 _NOBODY = Student(0, "", "", "")
 
@@ -138,15 +138,15 @@ def _used_again(last: _Last, out: Path, option: str, what: str) -> str:
     """The line that says so."""
     if last.is_lost:
         raise UsageError(
-            f"--resume: the last run in {out} had a {option[2:].replace('-', ' ')}, but an earlier version of the kit "
+            f"{out}: the last run there had a {option[2:].replace('-', ' ')}, but an earlier version of the kit "
             f"did not keep all of it; give it again with {option} FILE, or drop it with {option} none"
         )
     return f"{what} of the last run in {out} is used again; {option} FILE takes another one, {option} none drops it"
 
 
 def read_run_inputs(options: ClassOptions) -> RunInputs:
-    """The roster and the late policy that were named, else with --resume those of the last run."""
-    last = _last(options.out) if options.resume else _Last()
+    """The roster and the late policy that were named, else those of the last run."""
+    last = _last(options.out)
     given = RunInputs(files=[path for path in (options.roster, options.late_policy) if path is not None] + last.files)
     if options.late_policy is not None:
         given.late_policy = read_text(options.late_policy)
