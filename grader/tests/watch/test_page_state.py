@@ -66,6 +66,15 @@ def test_a_picture_that_waits_is_not_called_wrong(steps: list[Step], tmp_path: P
     assert [picture["waits"] for picture in state["pictures"]] == [True]
 
 
+def test_what_waits_is_counted_by_itself(steps: list[Step], tmp_path: Path) -> None:
+    view = _view(steps[0], "// wrong", tmp_path)
+    assert view.result is not None
+    for test in view.result.tests:
+        test.waits_for = "view_frame"  # also of one that passed
+    state: Any = state_of(view)
+    assert (state["tests"]["passed"], state["tests"]["waits"], state["tests"]["failed"]) == (1, 1, [])
+
+
 def test_pictures_that_are_gone_are_left_out(steps: list[Step], tmp_path: Path) -> None:
     view = _view(steps[0], "// wrong", tmp_path)
     (tmp_path / "mine.png").unlink()

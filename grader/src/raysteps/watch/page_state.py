@@ -27,7 +27,7 @@ from raysteps.report.page import (
 )
 from raysteps.report.wording import HOW_SURE, inspect_command, replay_command, warnings_of, watch_command
 from raysteps.results.model import Diagnosis, ImageResult
-from raysteps.watch.step_view import StepView, passed_of, verdict
+from raysteps.watch.step_view import Items, StepView, passed_of, verdict
 
 # What the page shows, as JSON; whoever serves a page waits here for the next state.
 
@@ -135,9 +135,14 @@ def _picture(view: StepView, image: ImageResult) -> State:
     }
 
 
+def _kind(items: Items, failed: list[State]) -> State:
+    passed, all_ = passed_of(items)
+    waits = sum(bool(item.waits_for) and not item.passed for item in items)
+    return {"passed": passed, "all": all_, "waits": waits, "failed": failed}
+
+
 def _tests(view: StepView) -> State:
-    passed, all_ = passed_of(view.result.tests if view.result else [])
-    failed = [
+    failed: list[State] = [
         {
             "name": test.name,
             "message": test.message,
@@ -147,17 +152,16 @@ def _tests(view: StepView) -> State:
         }
         for test in view.failed_tests
     ]
-    return {"passed": passed, "all": all_, "failed": failed}
+    return _kind(view.result.tests if view.result else [], failed)
 
 
 def _hidden(view: StepView) -> State:
-    passed, all_ = passed_of(view.result.hidden if view.result else [])
     keys = ("name", "message", "given", "expected", "actual")
-    failed = [
+    failed: list[State] = [
         {key: getattr(item, key) for key in keys} | {"again": replay_command(item.case) if item.case else ""}
         for item in view.missed
     ]
-    return {"passed": passed, "all": all_, "failed": failed}
+    return _kind(view.result.hidden if view.result else [], failed)
 
 
 def _diagnosis(found: Diagnosis) -> State:

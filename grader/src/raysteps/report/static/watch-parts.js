@@ -75,13 +75,10 @@ function watchKind(title, items, makeOne) {
   if (!items.all) {
     return [];
   }
-  const right = items.passed === items.all;
-  const sign = make(
-    "span",
-    { class: right ? "watch-good" : "watch-bad" },
-    `${right ? "✓" : "✗"} ${items.passed} of ${items.all}`,
-  );
-  return [make("h2", {}, `${title}: `, sign), ...items.failed.map(makeOne)];
+  const wrong = items.all - items.passed - items.waits;
+  const [sign, tone] = wrong ? ["✗", "watch-bad"] : items.waits ? ["…", ""] : ["✓", "watch-good"];
+  const words = `${sign} ${items.passed} of ${items.all} right${items.waits ? `, ${items.waits} wait` : ""}`;
+  return [make("h2", {}, `${title}: `, make("span", { class: tone }, words)), ...items.failed.map(makeOne)];
 }
 
 /** Sentences are broken where the panel ends; only pseudocode keeps its columns. */
