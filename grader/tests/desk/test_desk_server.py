@@ -346,6 +346,7 @@ def test_a_file_carries_all_of_it_to_another_copy(tmp_path: Path, grades: Path) 
         *((f"submission,kind,text,step,line\nann,comment,x,1,{found}\n", f"2: line is '{found}', expected a whole")
           for found in ("nan", "inf", "2.5")),
         ("submission,kind,text,step,line\nann,comment,x,1,77\n", "2: line 77"),
+        ("Name , Text\nann,x\n", "author, at, found 'Name' and 'Text'"),
         ("name,text\nann,x\n", "has no column kind"),
         ("\xff", "has no column kind and text"),
     ],
@@ -366,6 +367,23 @@ def test_a_table_that_two_people_take_in_is_taken_in_once(tmp_path: Path, grades
         assert import_file(database, path, "Ada") == 2
         assert import_file(database, path, "Bob") == 0
         assert {one.author for _, one in all_annotations(database)} == {"Ada", "Eve"}
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        "Submission ,KIND, Step,Text\nann,Request,1,why?\n",
+        "entry;type;exercise;Your name;question\nann;request;1;Ann;why?\n",
+        "kind,text,submission,step\nrequest,why?,ann,1,more,cells\n",
+    ],
+)
+def test_columns_of_a_table_may_be_called_as_people_do(tmp_path: Path, grades: Path, table: str) -> None:
+    path = tmp_path / "asked.csv"
+    path.write_text(table)
+    with closing(ClassDatabase(grades)) as database:
+        assert import_file(database, path, "Ada") == 1
+        ((entry, one),) = all_annotations(database)
+    assert (entry, one.kind, one.step, one.text) == ("ann", "request", "01-camera-rays", "why?")
 
 
 def test_a_folder_without_a_class(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ import csv
 import io
 import re
 import unicodedata
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -15,7 +15,7 @@ from raysteps.common.text import delimiter_of, join_and, join_some, nearest, one
 from raysteps.submission.load import like
 
 # Header names without anything but letters and digits, in lower case. The first that is there counts.
-_HEADERS = {
+HEADERS = {
     "id": (
         *("id", "studentid", "studentnumber", "sid", "sisid", "sisuserid", "idnumber", "matriculation"),
         *("matriculationnumber", "matrikelnummer", "identifier", "userid", "user", "username", "login", "sisloginid"),
@@ -52,17 +52,19 @@ class Student:
 
 
 def _plain_header(header: str) -> str:
+    """As `HEADERS` has it."""
     return re.sub(r"[\W_]+", "", folded(header))
 
 
-def _columns(header: list[str], path: Path) -> dict[str, int]:
+def columns_of(header: Sequence[str], known: Mapping[str, Sequence[str]]) -> dict[str, int]:
+    """Where the columns are that this header has, by what they may be called."""
     plain = [_plain_header(cell) for cell in header]
-    columns: dict[str, int] = {}
-    for column, names in _HEADERS.items():
-        for name in names:
-            if name in plain:
-                columns[column] = plain.index(name)
-                break
+    found = {column: next((name for name in names if name in plain), None) for column, names in known.items()}
+    return {column: plain.index(name) for column, name in found.items() if name is not None}
+
+
+def _columns(header: list[str], path: Path) -> dict[str, int]:
+    columns = columns_of(header, HEADERS)
     if not columns.keys() & {"id", "name", "email"} and not {"first", "last"} <= columns.keys():
         raise UsageError(
             f"{path}:1: expected a header with a column id, name or email (and perhaps submission and submitted_at), "
@@ -78,18 +80,18 @@ def _typed(column: str) -> str:
 def _unknown_columns(header: list[str], found: Collection[str], path: Path) -> str:
     """What to tell of columns that are passed over, those first that may be one of those not `found`, with a slip of
     the pen; nothing where there is none."""
-    names = {name for some in _HEADERS.values() for name in some}
+    names = {name for some in HEADERS.values() for name in some}
     unknown = [cell for cell in dict.fromkeys(header) if _plain_header(cell) and _plain_header(cell) not in names]
     if not unknown:
         return ""
     has_name = "name" in found or {"first", "last"} <= {*found}
-    lacking = [column for column in _HEADERS if column not in found and not (has_name and column in _OF_A_NAME)]
-    owners = {name: column for column in lacking for name in _HEADERS[column]}
+    lacking = [column for column in HEADERS if column not in found and not (has_name and column in _OF_A_NAME)]
+    owners = {name: column for column in lacking for name in HEADERS[column]}
     meant = {cell: nearest(_plain_header(cell), owners) for cell in unknown}
     asked = [f"{cell!r} (is it {_typed(owners[name])}?)" for cell, name in meant.items() if name is not None]
     asked += [repr(cell) for cell, name in meant.items() if name is None]
     what = "column" if len(unknown) == 1 else "columns"
-    known = ", ".join(map(_typed, _HEADERS))
+    known = ", ".join(map(_typed, HEADERS))
     return f"{path}:1: nothing is read from the {what} {join_some(asked, _MAX_NAMED)}; read are {known}"
 
 

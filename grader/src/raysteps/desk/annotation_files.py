@@ -28,10 +28,11 @@ from raysteps.classroom.class_files import Cell, csv_bytes
 from raysteps.classroom.database import ClassDatabase, Source, transaction
 from raysteps.classroom.entries import folded
 from raysteps.classroom.review import item_words
+from raysteps.classroom.roster import HEADERS, columns_of
 from raysteps.common.documents import Malformed, as_text, convert, parse
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_out
-from raysteps.common.text import delimiter_of, join_and, number, unescape_formula
+from raysteps.common.text import delimiter_of, join_and, join_some, number, one_line, unescape_formula
 from raysteps.course.manifest import Step
 from raysteps.report.student import parts_of
 from raysteps.results.class_model import GradedStep
@@ -202,8 +203,21 @@ def _plain(one: Annotation) -> Annotation:
 # A table, for scripts and spreadsheets: such as the answers of a form that asks for regrades.
 
 _COLUMNS = ("submission", "kind", "step", "part", "line", "points", "text", "answer", "author", "at")
+_CALLED = {  # as headers of the roster are; the first that is there counts
+    **{column: (column,) for column in _COLUMNS},
+    **{column: HEADERS[column] for column in ("id", "email")},
+    "submission": ("submission", "entry"),
+    "kind": ("kind", "type"),
+    "step": ("step", "exercise", "task"),
+    "line": ("line", "linenumber"),
+    "points": ("points", "score"),
+    "text": ("text", "message", "request", "question", "comment", "reason"),
+    "answer": ("answer", "reply", "response"),
+    "author": ("author", "by"),
+}
 _NEEDED = ("kind", "text")
 _KINDS = ("comment", "points", "request")
+_MAX_NAMED = 8  # columns, where one is missing
 
 
 def _csv_rows(database: ClassDatabase, rows: list[tuple[str, Annotation]]) -> Iterator[list[Cell]]:
@@ -262,10 +276,11 @@ def _said(row: dict[str, str], author: str, place: str, steps: dict[str, Step]) 
     step = next((name for name in steps if row.get("step") and name.startswith(row["step"].zfill(2))), "")
     if row.get("step") and not step:
         raise UsageError(f"{place}: step is '{row['step']}', expected one of {', '.join(steps)}")
-    if row["kind"] not in _KINDS:
+    if row["kind"].lower() not in _KINDS:
         raise UsageError(f"{place}: kind is '{row['kind']}', expected {', '.join(_KINDS)}")
     document = {
-        **{key: row.get(key, "") for key in ("kind", "text", "answer", "part")},
+        **{key: row.get(key, "") for key in ("text", "answer", "part")},
+        "kind": row["kind"].lower(),
         "author": row.get("author") or author,
         "step": step,
         "line": int(_number(row.get("line", ""), "line", place)),
@@ -280,17 +295,21 @@ def _said(row: dict[str, str], author: str, place: str, steps: dict[str, Step]) 
 def _import_csv(database: ClassDatabase, path: Path, data: bytes, author: str) -> int:
     try:
         text = data.decode("utf-8-sig")
-        reader = csv.DictReader(io.StringIO(text, newline=""), restval="", delimiter=delimiter_of(text))
-        rows = [(reader.line_num, row) for row in reader]
+        reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter_of(text))
+        header, *rows = [(reader.line_num, cells) for cells in reader if cells] or [(1, [])]
     except (ValueError, csv.Error) as error:
         raise UsageError(f"{path}: is not CSV in UTF-8: {error}") from error
-    missing = [name for name in _NEEDED if name not in (reader.fieldnames or [])]
+    columns = columns_of(header[1], _CALLED)
+    missing = [name for name in _NEEDED if name not in columns]
     if missing:
-        raise UsageError(f"{path}: has no column {join_and(missing)}; known are id, email, {', '.join(_COLUMNS)}")
+        found = join_some([repr(one_line(cell).strip()) for cell in header[1]], _MAX_NAMED) or "none"
+        raise UsageError(
+            f"{path}: has no column {join_and(missing)}; known are id, email, {', '.join(_COLUMNS)}, found {found}"
+        )
     table, steps, new = _Table(database.connection), manifests_of(database), 0
     with transaction(database.connection):
         for line, cells in rows:
-            row = {key: unescape_formula((value or "").strip()) for key, value in cells.items() if isinstance(key, str)}
+            row = {name: unescape_formula(cells[at].strip()) if at < len(cells) else "" for name, at in columns.items()}
             if not any(row.values()):
                 continue
             place = f"{path}:{line}"
