@@ -150,6 +150,13 @@ def test_a_finger_scrolls_past_the_stage_and_turns_it_sideways(tmp_path: Path, o
     assert_large_enough(page)
 
 
+def test_what_is_drawn_stays_for_who_prints_the_page(page: "Page") -> None:
+    """Then no frame comes in which it would be drawn again."""
+    page.evaluate(_COUNT_COLORS)
+    later = _COUNT_COLORS.replace("document.querySelector('pixel-inside').view.paint();", "")
+    assert page.evaluate(later)["drawn"] > 5000
+
+
 def test_the_stage_stays_dark_with_the_colours_of_a_system(page: "Page") -> None:
     """The eye ray is white."""
     page.emulate_media(forced_colors="active")

@@ -217,6 +217,12 @@ def test_pages_show_all_without_a_network(site: Path, open_page: OpenPage) -> No
         assert_fits_all_screens(page)
         broken = "[...document.images].filter(i => i.loading !== 'lazy' && !i.naturalWidth).map(i => i.src)"
         assert page.evaluate(broken) == []
+    page.emulate_media(media="print")
+    assert not page.locator(".skip-to-content").is_visible(), "it would lie on the text of each printed page"
+    style = "one => [getComputedStyle(one).whiteSpace, getComputedStyle(one).breakInside]"
+    assert page.locator(".highlight pre").first.evaluate(style)[0] == "pre-wrap"
+    assert page.locator("article table").first.evaluate(style)[1] == "auto"
+    page.emulate_media(media="screen")
     shown = page.locator("math").first.bounding_box()
     assert shown is not None
     assert shown["width"] > 5

@@ -245,6 +245,20 @@ def test_what_is_pressed_is_seen_with_the_colours_of_a_system(open_page: OpenPag
     assert stage == "rgb(42, 45, 49)", "white pictures are told from it"
 
 
+def test_on_paper_both_pictures_are_there_seen_or_not(open_page: OpenPage, planted: Path) -> None:
+    page = open_page(planted)
+    element = _ready(page)
+    page.emulate_media(media="print")
+    pictures = element.locator(":scope > img")
+    assert [one.is_visible() for one in pictures.all()] == [True, True, False], "FLIP needs its legend"
+    assert not element.locator(".compare-show").is_visible()
+    assert element.locator(".compare-count").is_visible()
+    named = "one => [getComputedStyle(one, '::before').content, getComputedStyle(one, '::after').content]"
+    assert element.evaluate(named) == ['"reference"', '"yours"']
+    element.evaluate("one => one.dataset.state = 'waiting'")
+    assert not element.locator(".compare-count").is_visible()
+
+
 def test_difference_and_flip_are_brightest_at_the_planted_error(open_page: OpenPage, planted: Path) -> None:
     page = open_page(planted)
     element = _ready(page)

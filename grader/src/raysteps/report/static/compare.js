@@ -83,6 +83,7 @@ class ComparePictures extends HTMLElement {
   #build() {
     const name = (role) => this.#image(role)?.dataset.name ?? this.getAttribute(`${role}-name`) ?? role;
     const names = { reference: name("reference"), mine: name("mine") };
+    Object.assign(this.dataset, { referenceName: names.reference, mineName: names.mine }); // for who prints the page
     this.#desk = new CompareDesk(
       this.getAttribute("label") ?? "Pictures",
       names,

@@ -46,7 +46,7 @@ function linkProgram(gl, sources) {
 class SpacePainter {
   /** @param {HTMLCanvasElement} canvas. Throws where there is no WebGL. */
   constructor(canvas) {
-    const gl = canvas.getContext("webgl", { antialias: true });
+    const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true }); // for who prints the page
     if (!gl) throw new Error("This browser shows no WebGL.");
     this.gl = gl;
     this.programs = { mesh: linkProgram(gl, SURFACE_SHADERS), line: linkProgram(gl, LINE_SHADERS) };
