@@ -217,6 +217,13 @@ def test_pages_show_all_without_a_network(site: Path, open_page: OpenPage) -> No
         assert_fits_all_screens(page)
         broken = "[...document.images].filter(i => i.loading !== 'lazy' && !i.naturalWidth).map(i => i.src)"
         assert page.evaluate(broken) == []
+    page = open_page(site / "docs/mistakes/04-shadows.html", width=360)
+    words, picture = (page.locator(f"article tbody td:nth-child({column})").first.bounding_box() for column in (3, 1))
+    assert words is not None
+    assert picture is not None
+    assert words["y"] > picture["y"], "words stand below their pictures on a phone"
+    assert_fits_all_screens(page)
+    page = open_page(site / f"{with_formulas}.html")
     page.emulate_media(media="print")
     assert not page.locator(".skip-to-content").is_visible(), "it would lie on the text of each printed page"
     style = "one => [getComputedStyle(one).whiteSpace, getComputedStyle(one).breakInside]"
