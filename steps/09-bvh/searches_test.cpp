@@ -115,6 +115,13 @@ TEST_CASE("closest_hit_in_bvh: of several hits at one distance the first in the 
     CHECK(hit->fill.kd == 0.0F);
 }
 
+TEST_CASE("closest_hit_in_bvh: one surface, and so one node", "[09-bvh][closest_hit_in_bvh]") {
+    Scene scene;
+    scene.add(sphere_at({0.0F, 0.0F, 0.0F}, 1.0F));
+    INFO("the only ball is met at 4; the root is a leaf, and holds it");
+    check_same_hits(chain_of_leaves(scene.surfaces()), scene.surfaces(), {Ray{{0.0F, 0.0F, 5.0F}, k_down}});
+}
+
 TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
     Random random;
     INFO(random);

@@ -21,6 +21,7 @@ from raysteps.judge.cases.tree_cases import (
     aimed_from_inside,
     aimed_ray,
     along_axis,
+    among_few,
     among_many,
     any_scene,
     ball,
@@ -321,6 +322,7 @@ CLOSEST_HIT_IN_BVH = Function(
     (
         Group("in a tree that is given", _closest(one_ray, own=0)),
         Group("in the tree of build_bvh", _closest(one_ray, own=1)),
+        Group("a single leaf", _closest(among_few, own=0)),
         Group("from inside", _closest(from_inside)),
         Group("along an axis", _closest(along_axis)),
         Group("boxes that overlap", _closest(_long_triangles)),
