@@ -56,8 +56,8 @@ inline Node columns_around(const SurfaceList& surfaces) {
     return root;
 }
 
-/// Sorted along the longest side: a few surfaces in a leaf, beside it a node with all others, and so on.
-inline Bvh chain_of_leaves(const SurfaceList& surfaces, float padding = k_padding) {
+/// Sorted along the longest side: a few surfaces in a leaf, or one, beside it a node with all others, and so on.
+inline Bvh chain_of_leaves(const SurfaceList& surfaces, float padding = k_padding, bool one_in_leaf = false) {
     Bvh bvh{{}, surfaces};
     const std::size_t count = surfaces.size();
     if (count == 0) {
@@ -71,7 +71,7 @@ inline Bvh chain_of_leaves(const SurfaceList& surfaces, float padding = k_paddin
     };
     SurfaceList& sorted = bvh.surfaces;
     std::stable_sort(sorted.begin(), sorted.end(), lies_before);
-    const std::size_t in_leaf = 3 + count / 40;
+    const std::size_t in_leaf = one_in_leaf ? 1 : 3 + count / 40;
     const auto leaf = [&bvh, padding](std::size_t first, std::size_t end) {
         return BvhNode{bounds_around(bvh.surfaces, first, end, padding), static_cast<std::uint32_t>(first),
                        static_cast<std::uint32_t>(end - first)};

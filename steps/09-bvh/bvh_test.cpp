@@ -127,10 +127,10 @@ TEST_CASE("build_bvh: scenes that cannot be divided", "[09-bvh][build_bvh]") {
         }
         check_tree(scene);
     }
-    SECTION("each sphere twice as far and twice as large as the one before") {
+    SECTION("each sphere three times as far and three times as large as the one before") {
         Scene scene;
-        for (int i = 0; i < 40; ++i) {
-            const float far = std::ldexp(1.0F, i - 20);
+        for (int i = 0; i < 70; ++i) {
+            const float far = std::pow(3.0F, static_cast<float>(i - 35));
             scene.add(sphere_at({far, 0.0F, 0.0F}, 0.25F * far));
         }
         check_tree(scene);

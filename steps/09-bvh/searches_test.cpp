@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/stats.hpp"
@@ -38,6 +39,30 @@ Scene hundred_slopes() {
                                              glm::vec3{-8.0F, 24.0F, z + 8.0F}, Fill{}));
     }
     return scene;
+}
+
+/// Along z. All boxes are met by a ray that runs along z at x = y = 0.9, and of the balls only the large one.
+Scene balls_in_a_row(int large) {
+    Scene scene;
+    for (int i = 0; i < k_max_bvh_levels; ++i) {
+        scene.add(sphere_at({0.0F, 0.0F, 4.0F * static_cast<float>(i)}, i == large ? 1.5F : 1.0F));
+    }
+    return scene;
+}
+
+/// From both ends of the row.
+const std::vector<Ray> k_along_the_row{{{0.9F, 0.9F, 300.0F}, k_down}, {{0.9F, 0.9F, -50.0F}, -k_down}};
+
+/// As deep as a tree may be: a leaf of one surface beside all others, and then the two children in the other order.
+std::vector<Bvh> deepest_trees(const Scene& scene) {
+    std::vector<Bvh> trees(2, chain_of_leaves(scene.surfaces(), k_padding, true));
+    std::vector<BvhNode>& nodes = trees[1].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (!nodes[i].is_leaf()) {
+            std::swap(nodes[nodes[i].first], nodes[nodes[i].first + 1]);
+        }
+    }
+    return trees;
 }
 
 void check_same_hits(const Bvh& bvh, const SurfaceList& surfaces, const std::vector<Ray>& rays) {
@@ -122,6 +147,16 @@ TEST_CASE("closest_hit_in_bvh: one surface, and so one node", "[09-bvh][closest_
     check_same_hits(chain_of_leaves(scene.surfaces()), scene.surfaces(), {Ray{{0.0F, 0.0F, 5.0F}, k_down}});
 }
 
+TEST_CASE("closest_hit_in_bvh: a tree of 64 levels, and no tree has more", "[09-bvh][closest_hit_in_bvh]") {
+    for (const int large : {0, 20, 40, 60}) {
+        INFO("of 64 balls in a row only number " << large << " is met, and the boxes of all of them");
+        const Scene scene = balls_in_a_row(large);
+        for (const Bvh& bvh : deepest_trees(scene)) {
+            check_same_hits(bvh, scene.surfaces(), k_along_the_row);
+        }
+    }
+}
+
 TEST_CASE("closest_hit_in_bvh: far fewer tests than without the tree", "[09-bvh][build_bvh][closest_hit_in_bvh]") {
     Random random;
     INFO(random);
@@ -151,6 +186,16 @@ TEST_CASE("occluded_in_bvh: whether there is a hit before the distance", "[09-bv
         questions.push_back({random.ray_towards(random.point(5.0F), 20.0F), random.uniform(10.0F, 30.0F)});
     }
     check_occlusion(bvh, scene.surfaces(), questions);
+}
+
+TEST_CASE("occluded_in_bvh: a tree of 64 levels, and no tree has more", "[09-bvh][occluded_in_bvh]") {
+    for (const int large : {0, 20, 40, 60}) {
+        INFO("of 64 balls in a row only number " << large << " is met, and the boxes of all of them");
+        const Scene scene = balls_in_a_row(large);
+        for (const Bvh& bvh : deepest_trees(scene)) {
+            check_occlusion(bvh, scene.surfaces(), {{k_along_the_row[0], 400.0F}, {k_along_the_row[1], 400.0F}});
+        }
+    }
 }
 
 TEST_CASE("occluded_in_bvh: a hit at the distance itself does not count", "[09-bvh][occluded_in_bvh]") {
