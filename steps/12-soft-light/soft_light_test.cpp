@@ -390,6 +390,8 @@ TEST_CASE("sample_sphere: from inside nothing is seen", "[12-soft-light][sample_
     REQUIRE(sample_sphere(k_sphere, {0.0F, 1.0F, 1.0F}, {0.3F, 0.7F}).pdf > 0.0F);
     CHECK(sample_sphere(k_sphere, {0.0F, 4.0F, 1.0F}, {0.3F, 0.7F}).pdf == 0.0F);
     CHECK(sample_sphere(k_sphere, {0.0F, 5.0F, 0.0F}, {0.3F, 0.7F}).pdf == 0.0F);
+    INFO("nor on the sphere");
+    CHECK(sample_sphere(k_sphere, {0.0F, 2.0F, 0.0F}, {0.3F, 0.7F}).pdf == 0.0F);
 }
 
 TEST_CASE("sampled_light: light below a sphere has a closed form", "[12-soft-light][sampled_light]") {

@@ -268,6 +268,8 @@ TEST_CASE("sphere_pdf: one over the solid angle of its cone", "[15-mis][sphere_p
     INFO("nothing from inside");
     CHECK(sphere_pdf(light, {1.0F, 2.5F, 3.0F}) == 0.0F);
     CHECK(sphere_pdf(light, light.center) == 0.0F);
+    INFO("nor on the sphere");
+    CHECK(sphere_pdf({.center = {0.0F, 5.0F, 0.0F}, .radius = 3.0F}, {0.0F, 2.0F, 0.0F}) == 0.0F);
 }
 
 TEST_CASE("direct_light: each sample counts times its weight", "[15-mis][direct_light]") {
