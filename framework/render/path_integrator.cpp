@@ -39,8 +39,8 @@ public:
             if (light == k_black) {
                 return;
             }
-            const bool is_of_point_lights = !(sample.pdf > 0.0F);
-            if (is_of_point_lights) {
+            const bool has_no_density = !(sample.pdf > 0.0F);
+            if (has_no_density) {
                 samples.push_back({.light = light, .pdf = 1.0F});
                 return;
             }

@@ -58,7 +58,7 @@ inline std::string text(const Within& within) {
 
 inline std::string text(const HitRecord& hit) {
     return "hit at distance " + text(hit.distance) + ", position " + text(hit.position) + ", normal " +
-           text(hit.normal) + (hit.front_face ? ", front face" : ", back face");
+           text(hit.normal) + (hit.front_face ? ", from outside" : ", from inside");
 }
 
 }  // namespace raysteps::testing

@@ -1,7 +1,7 @@
 // Visible tests of step 09: what a cut costs.
 #include <glm/common.hpp>
-#include "steps/09-bvh/bvh.hpp"
 
+#include "steps/09-bvh/bvh.hpp"
 #include "testing/testing.hpp"
 
 using namespace raysteps;

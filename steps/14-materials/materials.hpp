@@ -62,11 +62,12 @@ namespace raysteps {
 /// where the view, -hit.ray_direction, is not above it.
 [[nodiscard]] std::optional<ScatterSample> scatter_metal(const HitRecord& hit, const glm::vec2& u);
 
-/// Where a path goes on from glass, with fill.index_of_refraction, above 0, inside and a vacuum outside:
+/// Where a path goes on from glass: fill.index_of_refraction, above 0, is that of the inside, and outside is a vacuum;
 /// hit.front_face tells which side the ray comes from. With fresnel_dielectric's probability it is mirrored, else
-/// refracted (Snell). The weight is white, pdf 1, and it is specular: lamps are found by such rays only. Where
-/// fill.roughness is above 0 it does so at a visible normal h instead of the surface's own, and the weight is (1 +
-/// lambda(view)) / (1 + lambda(view) + lambda(direction)), for both ways. Nothing where a mirrored direction leads
+/// refracted (Snell). The weight is white, pdf 1, and it is specular: lamps are found by such rays only.
+///
+/// Where fill.roughness is above 0 it does so at a visible normal h instead of the surface's own, and the weight is
+/// (1 + lambda(view)) / (1 + lambda(view) + lambda(direction)), for both ways. Nothing where a mirrored direction leads
 /// below the surface, or a refracted one above. Random numbers come from `random`.
 /// Light that enters glass is squeezed by the square of the index, and leaves it as it was: that is left out.
 [[nodiscard]] std::optional<ScatterSample> scatter_glass(const HitRecord& hit, RandomStream& random);

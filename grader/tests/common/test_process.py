@@ -31,6 +31,11 @@ def test_a_crash_has_a_name() -> None:
         ("terminate called after throwing\n  what():  no table\x1b[2J\n", "an exception that nobody caught: no table"),
         ("1\na.cpp:3: int f(int): Assertion `n < 9' failed.\n", "an assertion that does not hold: n < 9"),
         ("optional:477: int get(): Assertion 'engaged()' failed.", "an assertion that does not hold: engaged()"),
+        ("Assertion failed: (n < 9), function f, file a.cpp, line 3.", "an assertion that does not hold: n < 9"),
+        (
+            "libc++abi: terminating due to uncaught exception of type std::runtime_error: no table",
+            "an exception that nobody caught: no table",
+        ),
         ("  what():  no table\nlater\n", "an exception that nobody caught, or an assertion that does not hold"),
         ("Assertion '" * 90_000, "an exception that nobody caught, or an assertion that does not hold"),
     ],

@@ -3,8 +3,9 @@
 import unicodedata
 
 import pytest
+from rich.console import Console
 
-from raysteps.common.text import clean, name_order, one_line, printable, visible_text
+from raysteps.common.text import clean, name_order, one_line, print_plain, printable, visible_text
 
 _UNSEEN = [
     "\u00ad",
@@ -66,3 +67,8 @@ def test_names_stand_where_people_look_for_them() -> None:
     names_in_disorder = [*names[7:], *names[:7]]
     assert sorted(names_in_disorder, key=name_order) == names
     assert sorted(["ann", "Ann"], key=name_order) == sorted(["Ann", "ann"], key=name_order)
+
+
+def test_a_line_is_printed_as_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+    print_plain(Console(width=20), "course.toml:100: [bold] :x: of a folder")
+    assert capsys.readouterr().out == "course.toml:100: [bold] :x: of a folder\n"

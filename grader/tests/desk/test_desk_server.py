@@ -349,6 +349,7 @@ def test_a_file_carries_all_of_it_to_another_copy(tmp_path: Path, grades: Path) 
         ("Name , Text\nann,x\n", "author, at, found 'Name' and 'Text'"),
         ("name,text\nann,x\n", "has no column kind"),
         ("\xff", "has no column kind and text"),
+        ("", "found none"),
     ],
 )  # fmt: skip
 def test_a_table_that_is_wrong_is_refused_as_a_whole(tmp_path: Path, grades: Path, text: str, words: str) -> None:

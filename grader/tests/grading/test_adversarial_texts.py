@@ -100,6 +100,12 @@ def test_a_megabyte_of_last_words(piece: str) -> None:
     assert len(exit_words(_ran(piece * (_MEGABYTE // len(piece))).outcome)) < 300
 
 
+def test_last_words_are_read_at_their_beginning_only() -> None:
+    words = "symbol lookup error: step: undefined symbol: tone_map"
+    assert "defined nowhere" in exit_words(_ran(words).outcome)
+    assert "defined nowhere" not in exit_words(_ran("x" * 3000 + words).outcome)
+
+
 _NAMES = ["a ", " a", "a 0 ", " U", "x U 0 ", "0 ", "\t", "a\x0b"]
 
 

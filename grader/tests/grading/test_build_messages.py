@@ -100,6 +100,7 @@ _WRONG = {
     "float f(float a) { return 2.0F \u2013 a; }": "is another: type it anew",
     "float f(float a) { return a\u200b; }": "nobody sees",
     "float f(float a) { return \ufeffa; }": "nobody sees",
+    "float f(float a) { return \u3164a; }": "nobody sees",
     "int f() { return 1; }\nint f() { return 1; }": "keep one of them",
     "float f(float a, float b, float c) { return std::max(a, b, c); }": "for three write",
 }

@@ -154,6 +154,7 @@ def test_what_is_drawn_stays_for_who_prints_the_page(page: "Page") -> None:
     """Then no frame comes in which it would be drawn again."""
     page.evaluate(_COUNT_COLORS)
     later = _COUNT_COLORS.replace("document.querySelector('pixel-inside').view.paint();", "")
+    assert later != _COUNT_COLORS
     assert page.evaluate(later)["drawn"] > 5000
 
 

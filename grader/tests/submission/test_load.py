@@ -20,7 +20,7 @@ from raysteps.common.process import run
 from raysteps.course.manifest import Step
 from raysteps.submission import entries
 from raysteps.submission.archives import archive_entries
-from raysteps.submission.load import load_submission, submission_name, submissions_inside
+from raysteps.submission.load import archives_beside, load_submission, submission_name, submissions_inside
 
 LAYOUTS = [
     "steps/02-intersection/intersection.cpp",
@@ -347,8 +347,9 @@ def test_a_class_is_no_submission(tmp_path: Path, steps: list[Step], names: list
 @pytest.mark.parametrize(
     ("folder", "archives", "held"),
     [
-        ("anna", ["ben.zip", "notes.zip"], ["anna", "ben.zip", "notes.zip"]),
+        ("anna", ["ben.zip", "notes.zip"], []),  # told of, and graded: old.zip would be no reason not to
         (None, ["ben.zip", "cleo.zip"], ["ben.zip", "cleo.zip"]),
+        (None, ["notes.zip", "ben.zip", "cleo.zip"], ["ben.zip", "cleo.zip", "notes.zip"]),
         ("ben", ["ben.zip"], []),  # unpacked beside it
         ("anna", ["notes.zip"], []),
         (None, ["ben.zip"], []),  # as platforms put a student's upload
@@ -365,3 +366,5 @@ def test_archives_in_a_folder_are_a_class(
         with zipfile.ZipFile(tmp_path / name, "w") as archive:
             archive.writestr("notes.txt" if name == "notes.zip" else "steps/04-shadows/shadows.cpp", "int x;")
     assert submissions_inside(tmp_path, steps) == held
+    is_told_of = folder == "anna" and "ben.zip" in archives
+    assert archives_beside(tmp_path, steps) == (["ben.zip"] if is_told_of else [])

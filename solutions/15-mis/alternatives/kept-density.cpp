@@ -84,7 +84,7 @@ Color mis_path_light(MisTracer& tracer, const Ray& ray, RandomStream& random) {
         weight *= sample->weight;
         if (bounces++ >= k_sure_bounces) {
             const float survival = survival_probability(weight);
-            if (random.next() >= survival) {
+            if (!(random.next() < survival)) {
                 return light;
             }
             weight /= survival;

@@ -78,7 +78,7 @@ struct Path {
         float goes_on = 1.0F;
         if (bounces >= k_sure_bounces) {
             goes_on = survival_probability(weight * sample->weight);
-            if (random.next() >= goes_on) {
+            if (!(random.next() < goes_on)) {
                 return light;
             }
         }

@@ -220,7 +220,7 @@ class _Console(Console):
 
 def console_here() -> Console:
     """As wide as the terminal; where there is none, lines are not broken."""
-    return _Console() if sys.stdout.isatty() else _Console(width=_NO_TERMINAL)
+    return _Console(emoji=False) if sys.stdout.isatty() else _Console(emoji=False, width=_NO_TERMINAL)
 
 
 def _trouble_of_printing() -> OSError | None:

@@ -15,7 +15,7 @@ from raysteps.cli import port
 from raysteps.common.errors import UsageError
 from raysteps.common.local_server import end_as_interrupted, on_a_desktop, shown_in_browser
 from raysteps.common.platform import kit_command, refuse_on_windows
-from raysteps.common.text import count
+from raysteps.common.text import count, print_plain
 from raysteps.course.project import Project
 from raysteps.desk.annotation_files import export_file, import_file
 from raysteps.desk.desk import Desk, DeskServer
@@ -63,7 +63,7 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
         server = DeskServer(desk, arguments.port)
         try:
             with suppress(KeyboardInterrupt), ExitStack() as stack:
-                console.print(f"Page: {server.address}", highlight=False, soft_wrap=True, markup=False)
+                print_plain(console, f"Page: {server.address}")
                 console.print("Ctrl-C ends it. All that you say is kept at once.", highlight=False)
                 sys.stdout.flush()
                 if not arguments.no_open and on_a_desktop():

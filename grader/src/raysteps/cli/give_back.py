@@ -161,9 +161,7 @@ def _write_zip(arguments: argparse.Namespace, console: Console) -> int:
     write_out(arguments.out, data)
     reports = count(len({one.student.submission for one in deliveries.given}), "report")
     whom = count(len(deliveries.given), "student")
-    console.print(
-        f"{escape(str(arguments.out))}: {reports} for {whom}, {size(len(data))}", soft_wrap=True, highlight=False
-    )
+    print_plain(console, f"{arguments.out}: {reports} for {whom}, {size(len(data))}")
     return 0
 
 

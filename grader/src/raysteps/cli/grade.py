@@ -14,7 +14,7 @@ from rich.console import Console
 from raysteps.common.errors import UsageError
 from raysteps.common.files import file_lock
 from raysteps.common.platform import kit_command, processor_count
-from raysteps.common.text import join_some
+from raysteps.common.text import join_some, print_plain
 from raysteps.course.manifest import STEPS_HELP, chosen_steps, read_steps
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
@@ -27,7 +27,13 @@ from raysteps.report.terminal import print_details, print_files, print_isolation
 from raysteps.results.model import Results, Settings
 from raysteps.results.store import CASES_FOLDER
 from raysteps.sandbox.detect import find_sandbox
-from raysteps.submission.load import load_submission, refuse_results_in, submission_name, submissions_inside
+from raysteps.submission.load import (
+    archives_beside,
+    load_submission,
+    refuse_results_in,
+    submission_name,
+    submissions_inside,
+)
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.toolchain.limits import LIMIT_HELP, give_up_after, parse_limits
 
@@ -89,6 +95,16 @@ def _refuse_a_class(project: Project, path: Path) -> None:
         )
 
 
+def _name_archives_beside(project: Project, path: Path, console: Console) -> None:
+    """A student's own old ones, or those of a class of which one was unpacked."""
+    names = archives_beside(path, read_steps(project))
+    if names:
+        all_ = kit_command("grade-class", path, "--out", "grades")
+        print_plain(
+            console, f"Not graded: {join_some(names, _NAMED)}. If they are other submissions, grade all with `{all_}`"
+        )
+
+
 def run(project: Project, arguments: argparse.Namespace, console: Console) -> int:
     """Grades one submission."""
     chosen = chosen_steps(project, arguments.only)
@@ -99,7 +115,9 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     options = GradeOptions(
         arguments.submission, arguments.out, settings, arguments.require_sandbox, jobs=arguments.jobs
     )
-    return exit_code(grade(project, options, console))
+    results = grade(project, options, console)
+    _name_archives_beside(project, arguments.submission, console)
+    return exit_code(results)
 
 
 def _room(project: Project) -> Path:

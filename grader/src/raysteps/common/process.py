@@ -131,10 +131,10 @@ class Outcome:
     def signal_words(self) -> str | None:
         """The signal, and what it usually means, or what the program said of it."""
         name = self.signal_name
-        why = _WHY_ABORTED.search(self.stderr.rstrip().rpartition("\n")[2][-_LONGEST_LINE:])
+        why = _WHY_ABORTED.search(self.stderr.rstrip().rpartition("\n")[2][-_MAX_LINE:])
         if name == "SIGABRT" and why is not None:
             kind = "an exception that nobody caught" if why["what"] else "an assertion that does not hold"
-            return f"{name}: {kind}: {shorten(printable(why['what'] or why['rule']), 200)}"
+            return f"{name}: {kind}: {shorten(printable(why['what'] or why['rule'] or why['other_rule']), 200)}"
         return f"{name}: {_MEANINGS[name]}" if name in _MEANINGS else name
 
 
@@ -146,8 +146,11 @@ _MEANINGS = {
     "SIGABRT": "an exception that nobody caught, or an assertion that does not hold",
 }
 # As the libraries of C++ and C say it in a program's last line.
-_WHY_ABORTED = re.compile(r"^ *what\(\): +(?P<what>.+)|Assertion [`'](?P<rule>.+)' failed")
-_LONGEST_LINE = 2000  # characters of it that are looked through
+_WHY_ABORTED = re.compile(
+    r"(?:^ *what\(\):|uncaught exception of type [\w:<>, ]+?:) +(?P<what>.+)"
+    r"|Assertion (?:[`'](?P<rule>.+)' failed|failed: \(?(?P<other_rule>.+?)\)?, (?:function|file) )"
+)
+_MAX_LINE = 2000  # characters of it that are looked through
 
 
 def _has_ended_in_time(process: "subprocess.Popen[bytes]", pipes: Sequence[PipeReader], deadline: float) -> bool:

@@ -217,4 +217,4 @@ def delimiter_of(text: str) -> str:
 
 def print_plain(console: "Console", text: str) -> None:
     """As it is: nothing in it is markup, and only the terminal breaks its lines."""
-    console.print(text, markup=False, highlight=False, soft_wrap=True)
+    console.print(text, markup=False, emoji=False, highlight=False, soft_wrap=True)

@@ -302,7 +302,8 @@ def _import_csv(database: ClassDatabase, path: Path, data: bytes, author: str) -
     columns = columns_of(header[1], _CALLED)
     missing = [name for name in _NEEDED if name not in columns]
     if missing:
-        found = join_some([repr(one_line(cell).strip()) for cell in header[1]], _MAX_NAMED) or "none"
+        names = [repr(one_line(cell).strip()) for cell in header[1]]
+        found = join_some(names, _MAX_NAMED) if names else "none"
         raise UsageError(
             f"{path}: has no column {join_and(missing)}; known are id, email, {', '.join(_COLUMNS)}, found {found}"
         )

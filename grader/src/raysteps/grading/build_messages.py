@@ -94,7 +94,8 @@ IN_OTHER_WORDS = (
         "behind it.",
     ),
     (
-        r"\u27e8U\+|character <U\+(?:00AD|20(?:0[B-F]|2[A-E]|6)|FEFF)",
+        r"\u27e8U\+|character <U\+"
+        "(?:00AD|034F|061C|115F|1160|17B[45]|180[B-F]|20(?:0[B-F]|2[89A-E]|6)|3164|F(?:E(?:0|FF)|FA0|FF[0-9AB]))",
         "There is a sign in it that nobody sees, as copied text may have: delete what stands there, and type it anew.",
     ),
     (

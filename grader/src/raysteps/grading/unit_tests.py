@@ -162,8 +162,8 @@ def known_to_hang(tests: Iterable[TestResult], functions: Mapping[str, Sequence[
 # The line at which a step crashes or hangs, by a program of the step that was compiled with sanitizers.
 
 # A program may say anything, so each line is read in a time that grows with its length and no faster.
-_LONGEST_LINE = 2000  # of those that are searched for words
-_LONGEST_CAUSE = 4000  # characters of a report beside its stacks
+_MAX_LINE = 2000  # of those that are searched for words
+_MAX_CAUSE = 4000  # characters of a report beside its stacks
 _MAX_FRAMES = 50  # of a stack, in the student's files
 _SLOWER = 5  # times as long as without
 _SECONDS_OF_A_HANG = 4.0  # of work: its stack is printed ten times within the first three
@@ -257,14 +257,14 @@ def _function_name(text: str) -> str:
 def _cause(report: _Report, said: str, thrown: str) -> str:
     if report.kind != "error":
         return report.text if report.kind == "undefined" else f"throws {report.text}"
-    lines = (line for line in said.splitlines() if len(line) < _LONGEST_LINE)
+    lines = (line for line in said.splitlines() if len(line) < _MAX_LINE)
     rule = next(filter(None, map(_RULE.search, lines)), None)
     if report.text.startswith("ABRT"):
         if rule is not None:
             known = next((words for part, words in _BROKEN_RULES.items() if part in rule[1]), "")
             return known or f"breaks a rule of the standard library: {rule[1]}"
         return f"throws {thrown}, and nobody catches it" if thrown else "ends the program with abort()"
-    text = " ".join([report.text, *(line for line in report.said if "#" not in line)])[:_LONGEST_CAUSE]
+    text = " ".join([report.text, *(line for line in report.said if "#" not in line)])[:_MAX_CAUSE]
     access = _ACCESS.search(text)
     uses = {"READ": "reads", "WRITE": "writes"}[access[1]] if access else "uses"
     words = next((words for pattern, words in _CAUSES.items() if re.search(pattern, text)), report.text.split(" ")[0])

@@ -367,12 +367,12 @@ def not_in_time(what: str, seconds: float, *, sooner: bool) -> str:
 
 # As the loader says it of a function that is no C++, which the linker leaves to the loader; a source can hide it there.
 _NOWHERE = re.compile(r"symbol lookup error: .+?: undefined symbol: ([^\s,]+)")
-_LONGEST_LINE = 2000  # characters of the last one that are looked through
+_MAX_LINE = 2000  # characters of the last one that are looked through
 
 
 def exit_words(outcome: Outcome) -> str:
     """The exit code of a program that gave up, and its last words."""
-    last = outcome.stderr.strip().rpartition("\n")[2][:_LONGEST_LINE]
+    last = outcome.stderr.strip().rpartition("\n")[2][:_MAX_LINE]
     nowhere = _NOWHERE.search(last)
     if nowhere is not None:
         name = unqualified_name(nowhere[1]) or nowhere[1]

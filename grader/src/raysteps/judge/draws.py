@@ -20,11 +20,11 @@ from raysteps.judge.statistics import (
     uneven_problem,
 )
 
-_MAX = 40_000
+_MAX_SAMPLES = 40_000
 _UNIT = 1e-4
 
 
-def draws(draw: RandomSource, amount: int) -> dict[str, Whole]:
+def seed_and_times(draw: RandomSource, amount: int) -> dict[str, Whole]:
     """So many random points."""
     return {"seed": Whole(draw.whole(1, 1_000_000_000)), "times": Whole(amount)}
 
@@ -193,7 +193,7 @@ def heights_of_directions(directions: Numbers) -> Numbers:
 
 def read_directions(tokens: TokenReader) -> Numbers:
     """Row by row."""
-    return tokens.rows(3, _MAX)
+    return tokens.rows(3, _MAX_SAMPLES)
 
 
 def _words_of(v: Sequence[float] | Numbers) -> str:
@@ -264,7 +264,7 @@ def read_samples_and_first(tokens: TokenReader) -> tuple[Samples, bool]:
 
 def _optional_samples(tokens: TokenReader) -> tuple[list[bool], Numbers]:
     """Which are there, and those."""
-    there, rows = tokens.optional_rows(8, _MAX)
+    there, rows = tokens.optional_rows(8, _MAX_SAMPLES)
     if not np.isin(rows[:, 7], (0, 1)).all():
         raise ProtocolError("the answer holds another word where a flag belongs")
     return there, rows

@@ -293,22 +293,39 @@ def without_place(error: UsageError, path: Path) -> str:
 
 def submissions_inside(path: Path, steps: list[Step]) -> list[str]:
     """What lies in a folder that holds no step itself, where it is a class: folders that each hold a file of the same
-    step, or archives, or a single folder and archives."""
+    step, or archives that each hold a step."""
+    highest = _homes_in(path, steps)
+    folders = {home for found in highest for home in found}
+    several = {home for found in highest if len(found) > 1 for home in found}
+    if path.is_dir() and not folders:
+        packed = [one.name for one in _packed_in(path)]
+        several = set(packed) if len([*islice(_packed_steps(path, steps), 2)]) > 1 else set()
+    return sorted(several)
+
+
+def archives_beside(path: Path, steps: list[Step]) -> list[str]:
+    """Those that hold a step, beside the only folder that does and is taken: other submissions, or old ones."""
+    folders = {home for found in _homes_in(path, steps) for home in found}
+    if len(folders) != 1 or "" in folders:
+        return []
+    return [one for one in _packed_steps(path, steps) if submission_name(path / one) not in folders]
+
+
+def _homes_in(path: Path, steps: list[Step]) -> list[set[str]]:
+    """Of each step the folders that hold its file; what lies further down is somebody's old copy."""
     if not path.is_dir():
         return []
     places, homes = SourceLocator(steps), dict[str, set[tuple[str, ...]]]()
     for place in filter(None, (places.find(entry.parts) for entry in _reader(path).entries())):
         homes.setdefault(place.step, set()).add(place.home)
     if any(() in found for found in homes.values()):
-        return []
-    highest = [_highest(found) for found in homes.values()]  # what lies further down is somebody's old copy
-    folders = {"/".join(home) for found in highest for home in found}
-    several = {"/".join(home) for found in highest if len(found) > 1 for home in found}
-    packed = [one for one in _packed_in(path) if submission_name(one) not in folders] if len(folders) < 2 else []
-    with_a_step = islice((one for one in packed if _holds_a_step(one, steps)), 2)  # two of them are enough
-    if len(folders) + len([*with_a_step]) > 1 and packed:
-        several = folders | {one.name for one in packed}
-    return sorted(several)
+        return [{""}]
+    return [{"/".join(home) for home in _highest(found)} for found in homes.values()]
+
+
+def _packed_steps(path: Path, steps: list[Step]) -> Iterator[str]:
+    """The archives in a folder that each hold a step."""
+    return (one.name for one in _packed_in(path) if _holds_a_step(one, steps))
 
 
 def _holds_a_step(archive: Path, steps: list[Step]) -> bool:

@@ -18,11 +18,11 @@ from raysteps.judge.draws import (
     as_shares,
     broken_draws,
     corners,
-    draws,
     draws_reader,
     evenness,
     heights_of_directions,
     place_problem,
+    seed_and_times,
     turns_around,
     words_of_draws,
 )
@@ -232,7 +232,7 @@ def _triangle(draw: RandomSource, low: float, high: float, size: int) -> Inputs:
     normal = unit(cross(minus(b, a), minus(c, a)))
     middle = times(1 / 3, add(add(a, b), c))
     from_ = rounded(add(middle, draw.above(normal, low, high), draw.real(3, 9)))
-    return {"a": Vec(a), "b": Vec(b), "c": Vec(c), "from": Vec(from_), **draws(draw, size)}
+    return {"a": Vec(a), "b": Vec(b), "c": Vec(c), "from": Vec(from_), **seed_and_times(draw, size)}
 
 
 def _disk(draw: RandomSource, low: float, high: float, size: int, *, axis: bool = False) -> Inputs:
@@ -243,7 +243,7 @@ def _disk(draw: RandomSource, low: float, high: float, size: int, *, axis: bool 
         "normal": Vec(normal),
         "radius": Real(radius),
         "from": Vec(from_),
-        **draws(draw, size),
+        **seed_and_times(draw, size),
     }
 
 
@@ -251,7 +251,7 @@ def _sphere(draw: RandomSource, reach: float, size: int) -> Inputs:
     """`reach`: the distance from the centre, in radii."""
     center, radius = draw.point(4), draw.real(0.2, 2)
     from_ = rounded(add(center, draw.direction(), reach * radius))
-    return {"center": Vec(center), "radius": Real(radius), "from": Vec(from_), **draws(draw, size)}
+    return {"center": Vec(center), "radius": Real(radius), "from": Vec(from_), **seed_and_times(draw, size)}
 
 
 SAMPLE_TRIANGLE = Function(

@@ -21,12 +21,12 @@ from raysteps.judge.answers import (
 from raysteps.judge.cases.microfacets import dielectric, rough_problem, smith_lambda, units, visible_problem
 from raysteps.judge.draws import (
     Samples,
-    draws,
     odd_number,
     read_directions,
     read_sample,
     read_samples,
     read_samples_and_first,
+    seed_and_times,
     unit_problem,
     words_of_directions,
     words_of_samples,
@@ -231,7 +231,7 @@ _GGX_LAMBDA = Function(
 
 
 def _visible(draw: RandomSource, view: Vector, amount: int = 2048) -> Inputs:
-    return {"view": Vec(view), "alpha": _alpha(draw, 0.1), **draws(draw, amount)}
+    return {"view": Vec(view), "alpha": _alpha(draw, 0.1), **seed_and_times(draw, amount)}
 
 
 def _nearly_smooth(draw: RandomSource) -> Inputs:
@@ -241,7 +241,7 @@ def _nearly_smooth(draw: RandomSource) -> Inputs:
     turn = math.radians(draw.sign() * draw.fine(35, 55))
     across = tangent / alpha.value
     view = rounded(unit((across * math.cos(turn), across * math.sin(turn), 1.0)))
-    return {"view": Vec(view), "alpha": alpha, **draws(draw, 32_768)}
+    return {"view": Vec(view), "alpha": alpha, **seed_and_times(draw, 32_768)}
 
 
 _SAMPLE_VISIBLE_NORMAL = Function(
@@ -418,12 +418,12 @@ def _metal_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
 
 def _rough(draw: RandomSource, low: float, high: float, rough: tuple[float, float], amount: int = 1024) -> Inputs:
     hit = _hit(draw, low, high, _metal(draw))
-    return {"hit": hit, "roughness": _alpha(draw, *rough), **draws(draw, amount)}
+    return {"hit": hit, "roughness": _alpha(draw, *rough), **seed_and_times(draw, amount)}
 
 
 def _white_metal(draw: RandomSource) -> Inputs:
     """It takes no light, and hides next to nothing: of some samples the weight is exactly white, as of a mirror."""
-    return {"hit": _hit(draw, 1.0, 1.0, Fill()), "roughness": _alpha(draw, 0.02, 0.03), **draws(draw, 1024)}
+    return {"hit": _hit(draw, 1.0, 1.0, Fill()), "roughness": _alpha(draw, 0.02, 0.03), **seed_and_times(draw, 1024)}
 
 
 _SCATTER_METAL = Function(
@@ -539,7 +539,7 @@ def _glass_fill(draw: RandomSource) -> Fill:
 
 
 def _glass(draw: RandomSource, low: float, high: float, roughness: Real, amount: int = 1024) -> Inputs:
-    return {"hit": _hit(draw, low, high, _glass_fill(draw)), "roughness": roughness, **draws(draw, amount)}
+    return {"hit": _hit(draw, low, high, _glass_fill(draw)), "roughness": roughness, **seed_and_times(draw, amount)}
 
 
 def _inside(draw: RandomSource, *, total: bool) -> Inputs:
@@ -566,7 +566,7 @@ def _frosted_inside(draw: RandomSource) -> Inputs:
 def _from_inside(draw: RandomSource, low: float, high: float, fill: Fill, roughness: Real) -> Inputs:
     hit = _hit(draw, low, high, fill)
     inside = Hit(hit.position, hit.normal, hit.ray_direction, hit.distance, fill, False)
-    return {"hit": inside, "roughness": roughness, **draws(draw, 1024)}
+    return {"hit": inside, "roughness": roughness, **seed_and_times(draw, 1024)}
 
 
 _SCATTER_GLASS = Function(

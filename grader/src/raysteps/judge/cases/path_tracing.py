@@ -9,9 +9,9 @@ from raysteps.judge.answers import Answer, Tolerance, first, number_answer, shar
 from raysteps.judge.cases.whole_paths import BLACK, PATH_LIGHT
 from raysteps.judge.draws import (
     Samples,
-    draws,
     read_directions,
     read_samples,
+    seed_and_times,
     unit_problem,
     words_of_directions,
     words_of_samples,
@@ -111,7 +111,7 @@ def _directions_problem(inputs: Inputs, _expected: Numbers, actual: Numbers) -> 
 
 
 def _directions(draw: RandomSource, normal: Vector, amount: int = 2048) -> Inputs:
-    return {"normal": Vec(normal), **draws(draw, amount)}
+    return {"normal": Vec(normal), **seed_and_times(draw, amount)}
 
 
 def _near_an_axis(draw: RandomSource) -> Vector:
@@ -253,7 +253,7 @@ def _sample_problems(inputs: Inputs, actual: Samples) -> tuple[str, ...]:
 def _scatter(draw: RandomSource, fill: Fill, normal: Vector, amount: int, emission: Vector = BLACK) -> Inputs:
     along = times(-1, draw.above(normal, 0.05))
     hit = Hit(draw.point(5), normal, along, draw.real(0.5, 9), fill, draw.chance(0.7))
-    return {"hit": hit, "emission": Vec(emission), **draws(draw, amount)}
+    return {"hit": hit, "emission": Vec(emission), **seed_and_times(draw, amount)}
 
 
 def _colored(draw: RandomSource) -> Fill:

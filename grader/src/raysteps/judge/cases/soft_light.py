@@ -31,11 +31,11 @@ from raysteps.judge.draws import (
     as_shares,
     broken_draws,
     corners,
-    draws,
     draws_reader,
     evenness,
     heights_of_directions,
     place_problem,
+    seed_and_times,
     turns_around,
     words_of_draws,
 )
@@ -120,8 +120,8 @@ _UNIT_DISK = Function(
     "unit_disk",
     Answer(draws_reader(2), words_of_draws, _disk_problem, is_drawn=True),
     (
-        Group("many points", lambda d: draws(d, MANY)),
-        Group("very many points", lambda d: draws(d, VERY_MANY)),
+        Group("many points", lambda d: seed_and_times(d, MANY)),
+        Group("very many points", lambda d: seed_and_times(d, VERY_MANY)),
         Group("corners of the square", lambda _: corners(), exact=True),
     ),
 )
@@ -143,7 +143,7 @@ def _cap_problem(inputs: Inputs, _expected: Draws, actual: Draws) -> str:
 
 
 def _cap(draw: RandomSource, height: float, size: int) -> Inputs:
-    return {"height": Real(height), **draws(draw, size)}
+    return {"height": Real(height), **seed_and_times(draw, size)}
 
 
 _CAP_DIRECTION = Function(
@@ -361,7 +361,7 @@ def _lens(draw: RandomSource, low: float, high: float, size: int, *, radius: flo
     ray = Ray(draw.point(4), draw.above(forward, low, high))
     lens = draw.real(0.05, 0.8) if radius is None else radius
     numbers = {"lens_radius": Real(lens), "focal_distance": Real(draw.real(1.5, 15))}
-    return {"frame": frame, "ray": ray, **numbers, **draws(draw, size)}
+    return {"frame": frame, "ray": ray, **numbers, **seed_and_times(draw, size)}
 
 
 _LENS_RAY = Function(
