@@ -33,9 +33,9 @@ FakeScene scene_of(SurfaceList surfaces) {
 
 Sphere ball(const glm::vec3& center, float radius) { return {center, radius, Fill{}}; }
 
-/// Calls check(hit, light) for 200 hits, each with a light above it.
+/// Calls check(hit, light, ray) for 200 hits, each with a light above it, and the shadow ray between them.
 template <typename Check>
-void with_hits_and_lights(const Check& check) {
+void with_shadow_rays(const Check& check) {
     Random random;
     INFO(random);
     for (int i = 0; i < 200; ++i) {
@@ -43,7 +43,9 @@ void with_hits_and_lights(const Check& check) {
         const float distance = random.uniform(2.0F, 30.0F);
         const Light light{hit.position + distance * random.unit_vector_above(hit.normal, 0.2F), k_white};
         CAPTURE(hit.position, hit.normal, light.position);
-        check(hit, light);
+        const Ray ray = shadow_ray(hit, light);
+        CAPTURE(ray);
+        check(hit, light, ray);
     }
 }
 
@@ -73,9 +75,7 @@ TEST_CASE("shadow_ray: starts just off the surface", "[04-shadows][shadow_ray]")
 }
 
 TEST_CASE("shadow_ray: goes from the hit to the light for any of them", "[04-shadows][shadow_ray]") {
-    with_hits_and_lights([](const HitRecord& hit, const Light& light) {
-        const Ray ray = shadow_ray(hit, light);
-        CAPTURE(ray);
+    with_shadow_rays([](const HitRecord& hit, const Light& light, const Ray& ray) {
         REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);
         REQUIRE_THAT(ray.direction, IsUnitLength());
         INFO("the ray must pass through the light");
@@ -85,9 +85,7 @@ TEST_CASE("shadow_ray: goes from the hit to the light for any of them", "[04-sha
 }
 
 TEST_CASE("shadow_ray: starts just off the surface for any hit and light", "[04-shadows][shadow_ray]") {
-    with_hits_and_lights([](const HitRecord& hit, const Light& light) {
-        const Ray ray = shadow_ray(hit, light);
-        CAPTURE(ray);
+    with_shadow_rays([](const HitRecord& hit, const Light&, const Ray& ray) {
         INFO("the origin is off the surface, on the side of the normal, by no more than 0.01");
         REQUIRE(glm::dot(ray.origin - hit.position, hit.normal) > 0.0F);
         REQUIRE(glm::distance(ray.origin, hit.position) <= k_farthest_off);

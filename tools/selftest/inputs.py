@@ -15,8 +15,9 @@ from functools import cache, cached_property
 from itertools import pairwise
 from pathlib import PurePosixPath
 
-from raysteps.course.project import Project, fingerprint
+from raysteps.course.project import Project
 from raysteps.course.tracked_files import list_files
+from raysteps.toolchain.fingerprint import fingerprint
 from tools.selftest.stamps import Stamps
 
 _SOURCES, _TOOLS, _TESTS = "grader/src/", "tools/", "grader/tests/"

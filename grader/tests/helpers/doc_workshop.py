@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from raysteps.common.markdown import blocks
-from raysteps.course.project import Project, fingerprint
+from raysteps.course.project import Project
 from raysteps.course.tracked_files import list_files
+from raysteps.toolchain.fingerprint import fingerprint
 from raysteps.toolchain.kit_artifacts import BuiltKit
 
 _GRADEBOOK = """Student,ID,SIS User ID,SIS Login ID,Section,Ray tracer (12)

@@ -14,6 +14,7 @@ from raysteps.common.documents import plain
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.process import run
 from raysteps.course.project import Project
+from tools.bench.command import KINDS
 from tools.bench.docs import bench_docs
 from tools.bench.model import (
     ListedStructure,
@@ -28,7 +29,6 @@ from tools.bench.model import (
     kept,
 )
 from tools.bench.programs import ask, can_pin_processor, checked, pinned, portable, what_is_missing
-from tools.bench.scale import KINDS
 
 _MACHINE = Machine("a processor", 2, "Linux x86_64", "g++", "-O2", pinned=True)
 

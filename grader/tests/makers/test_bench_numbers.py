@@ -5,9 +5,9 @@ import math
 import pytest
 
 from tools.bench.charts import linear_axis, log_axis, tick_text
+from tools.bench.command import growth, growth_of, sizes
 from tools.bench.model import ScaleRow, Spread, geometric_mean
 from tools.bench.pictures import thread_counts
-from tools.bench.scale import growth, growth_of, sizes
 
 pytestmark = pytest.mark.portable
 

@@ -7,9 +7,10 @@ import pytest
 from course_fakes import small_project
 
 from raysteps.course.manifest import Step, read_steps
-from raysteps.course.project import Project, fingerprint
+from raysteps.course.project import Project
 from raysteps.toolchain import build_kit as building
 from raysteps.toolchain.build_kit import build_kit, up_to_last
+from raysteps.toolchain.fingerprint import fingerprint
 from raysteps.toolchain.link import Description
 
 

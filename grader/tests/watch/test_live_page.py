@@ -160,6 +160,7 @@ def test_reloaded_it_is_the_same(live: Live, pages: Watched) -> None:
     named = "Most likely: left and right <i>change places</i>"
     _says(page, "#watch-verdict", "2.5 of 10 points")
     _says(page, ".watch-name", named)
+    page.locator("compare-pictures[data-state=ready]").wait_for()
     said = page.locator("main").inner_text()
     page.reload()
     _says(page, "#watch-verdict", "2.5 of 10 points")

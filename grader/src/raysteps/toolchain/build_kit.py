@@ -16,13 +16,14 @@ from raysteps.common.errors import GraderFault
 from raysteps.common.files import write_bytes, write_json
 from raysteps.common.platform import executable, processor_count
 from raysteps.course.manifest import Step, course_manifests, kit_steps, read_all_steps, read_steps, up_to
-from raysteps.course.project import Project, fingerprint
+from raysteps.course.project import Project
 from raysteps.course.stubs import included, pristine_stub
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Input, Limits, Output, Task
 from raysteps.toolchain.catch2 import list_tests
 from raysteps.toolchain.cmake import release_tree, what_failed
 from raysteps.toolchain.compile import readable_names, symbols_of
+from raysteps.toolchain.fingerprint import fingerprint
 from raysteps.toolchain.kit_artifacts import BuiltKit, ProgramLinker, ProgressCallback, Tests, linker_names_of
 from raysteps.toolchain.link import (
     Description,

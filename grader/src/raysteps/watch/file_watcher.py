@@ -15,7 +15,8 @@ import watchfiles
 
 from raysteps.common.text import count
 from raysteps.course.manifest import Step, earlier, read_steps
-from raysteps.course.project import PROGRAM_FOLDERS, Project, kit_files
+from raysteps.course.project import Project
+from raysteps.toolchain.fingerprint import PROGRAM_FOLDERS, kit_files
 from raysteps.watch.events import FileSaved, FileVanished, Owner, Post, WatchNotice
 
 _COUNTS = re.compile(r"\w+\.(hpp|cpp)|step\.toml")  # not what editors leave beside them

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from raysteps.course.project import Project, fingerprint
+from raysteps.course.project import Project
+from raysteps.toolchain.fingerprint import fingerprint
 
 pytestmark = pytest.mark.portable
 
