@@ -128,11 +128,16 @@ class Outcome:
             return f"signal {-self.code}"
 
     @property
+    def last_line(self) -> str:
+        """Of what the program complained."""
+        return self.stderr.strip().rpartition("\n")[2]
+
+    @property
     def signal_words(self) -> str | None:
         """The signal, and what it usually means, or what the program said of it."""
         name = self.signal_name
-        why = _WHY_ABORTED.search(self.stderr.rstrip().rpartition("\n")[2][-_MAX_LINE:])
-        if name == "SIGABRT" and why is not None:
+        why = _WHY_ABORTED.search(self.last_line[-_MAX_LINE:]) if name == "SIGABRT" else None
+        if why is not None:
             kind = "an exception that nobody caught" if why["what"] else "an assertion that does not hold"
             return f"{name}: {kind}: {shorten(printable(why['what'] or why['rule'] or why['other_rule']), 200)}"
         return f"{name}: {_MEANINGS[name]}" if name in _MEANINGS else name

@@ -372,7 +372,7 @@ _MAX_LINE = 2000  # characters of the last one that are looked through
 
 def exit_words(outcome: Outcome) -> str:
     """The exit code of a program that gave up, and its last words."""
-    last = outcome.stderr.strip().rpartition("\n")[2][:_MAX_LINE]
+    last = outcome.last_line[:_MAX_LINE]
     nowhere = _NOWHERE.search(last)
     if nowhere is not None:
         name = unqualified_name(nowhere[1]) or nowhere[1]

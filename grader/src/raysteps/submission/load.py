@@ -323,9 +323,12 @@ def _homes_in(path: Path, steps: list[Step]) -> list[set[str]]:
     return [{"/".join(home) for home in _highest(found)} for found in homes.values()]
 
 
+_MAX_LOOKED_INTO = 16  # archives: who hands in a thousand would have them all decoded
+
+
 def _packed_steps(path: Path, steps: list[Step]) -> Iterator[str]:
-    """The archives in a folder that each hold a step."""
-    return (one.name for one in _packed_in(path) if _holds_a_step(one, steps))
+    """The archives in a folder that each hold a step, among the first ones."""
+    return (one.name for one in _packed_in(path)[:_MAX_LOOKED_INTO] if _holds_a_step(one, steps))
 
 
 def _holds_a_step(archive: Path, steps: list[Step]) -> bool:
