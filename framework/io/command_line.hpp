@@ -83,7 +83,8 @@ private:
     std::map<std::string, Flag> flags_;
 };
 
-/// Runs a program's work and gives its exit code: 2 for bad arguments, a bad scene, or a file that cannot be written.
+/// Runs a program's work and gives its exit code: 2 for whatever it throws, such as bad arguments, a bad scene, a file
+/// that cannot be written, or an exception of a step.
 /// What was wrong is told on stderr; `command` is what a person types after ./raysteps.
 [[nodiscard]] int run_program(const char* command, const std::function<void()>& work);
 

@@ -223,7 +223,10 @@ Scene read_nff(const std::filesystem::path& path) { return read_nff(read_text(pa
 Scene load_scene(std::string_view path, const std::optional<PictureSize>& size) {
     const std::filesystem::path file = path_of(path);
     const std::string text = read_text(file);
-    Scene scene = is_pbrt(text) ? read_pbrt_file(text, file) : read_nff(text, display_name(file));
+    if (is_pbrt(text)) {
+        return read_pbrt_file(text, file, size);
+    }
+    Scene scene = read_nff(text, display_name(file));
     if (size) {
         scene.camera.width = size->width;
         scene.camera.height = size->height;

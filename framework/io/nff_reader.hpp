@@ -7,14 +7,9 @@
 
 #include "core/scene.hpp"
 #include "io/files.hpp"
+#include "io/pbrt_reader.hpp"
 
 namespace raysteps {
-
-/// In pixels.
-struct PictureSize {
-    int width = 0;
-    int height = 0;
-};
 
 /// All throw ReadError when the file cannot be read or is not what NFF asks for.
 [[nodiscard]] Scene read_nff(const std::filesystem::path& path);

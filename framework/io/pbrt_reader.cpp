@@ -24,7 +24,8 @@ constexpr int k_deepest_include = 8;
 
 class PbrtReader {
 public:
-    explicit PbrtReader(const std::filesystem::path* folder) : folder_(folder), materials_(folder) {}
+    explicit PbrtReader(const std::filesystem::path* folder, const std::optional<PictureSize>& size = std::nullopt)
+        : folder_(folder), size_(size), materials_(folder) {}
 
     void read(std::string_view text, const std::string& name, int depth) {
         PbrtScanner scanner(text, name);
@@ -204,6 +205,10 @@ private:
         require_near(scanner, token, camera.from);
         camera.at = camera.from + reach_of_view(camera.from) * glm::normalize(at({0.0, 0.0, 1.0, 0.0}));
         camera.up = glm::normalize(at({0.0, 1.0, 0.0, 0.0}));
+        if (size_) {
+            camera.width = size_->width;
+            camera.height = size_->height;
+        }
         // `fov` is that of the shorter side; the kit's angle is the upright one.
         const float half = glm::tan(glm::radians(fov_) / 2.0F);
         const glm::vec2 sides(camera.width, camera.height);
@@ -245,6 +250,7 @@ private:
     PbrtWorld world() { return {scene_, state_, mirror_, folder_}; }
 
     const std::filesystem::path* folder_;
+    std::optional<PictureSize> size_;  // of the picture, where it is not the film's
     PbrtMaterials materials_;
     PbrtGraphicsState state_;
     std::vector<PbrtGraphicsState> stack_;
@@ -259,9 +265,9 @@ private:
 
 Scene read_pbrt(const std::filesystem::path& path) { return read_pbrt_file(read_text(path), path); }
 
-Scene read_pbrt_file(std::string_view text, const std::filesystem::path& path) {
+Scene read_pbrt_file(std::string_view text, const std::filesystem::path& path, const std::optional<PictureSize>& size) {
     const std::filesystem::path folder = path.parent_path();
-    PbrtReader reader(&folder);
+    PbrtReader reader(&folder, size);
     reader.read(text, display_name(path), 0);
     return reader.finish();
 }

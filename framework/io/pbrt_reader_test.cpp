@@ -97,6 +97,12 @@ TEST_CASE("a scene with a mirror of its own stays as it is", "[pbrt]") {
 TEST_CASE("the field of view is that of the shorter side", "[pbrt]") {
     const std::string film = R"(Camera "perspective" "float fov" 90 Film "rgb" "integer xresolution" 100)";
     CHECK(read(film + R"( "integer yresolution" 200 WorldBegin)").camera.angle == about(126.8699));
+    INFO("of the picture that is asked for, whatever the film's sides are");
+    const std::string wide = film + R"( "integer yresolution" 50 WorldBegin)";
+    CHECK(read_pbrt_file(wide, "a.pbrt").camera.angle == about(90));
+    const Camera tall = read_pbrt_file(wide, "a.pbrt", PictureSize{.width = 50, .height = 100}).camera;
+    CHECK(tall.angle == about(126.8699));
+    CHECK(tall.height == 100);
 }
 
 TEST_CASE("transformations come one after the other, and attributes end them", "[pbrt]") {
