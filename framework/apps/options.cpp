@@ -110,6 +110,13 @@ void check(const RaytraceOptions& options) {
     if (options.output.empty() && !options.spd) {
         throw UsageError("expected -o FILE for the picture");
     }
+    for (const auto& [name, is_there] :
+         {std::pair{"--stats", !options.stats.empty()}, std::pair{"--estimates", !options.estimates.empty()},
+          std::pair{"--map", options.map.has_value()}}) {
+        if (is_there && options.output.empty()) {
+            throw UsageError(name + std::string(": expected -o FILE for the picture beside it"));
+        }
+    }
     if (options.sample_side.value_or(1) > 1 && options.map) {
         throw UsageError("--samples: expected no --map beside it, which shows what one ray for each pixel costs");
     }

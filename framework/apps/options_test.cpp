@@ -104,6 +104,7 @@ TEST_CASE("The usage offers what the program has", "[apps]") {
 TEST_CASE("A wrong option is answered with what was expected", "[apps]") {
     CHECK(complaint_about({}) == "expected a scene, like scenes/lessons/three-spheres.nff");
     CHECK(complaint_about({"a.nff"}) == "expected -o FILE for the picture");
+    CHECK(complaint_about({"a.nff", "--spd", "--stats", "b"}) == "--stats: expected -o FILE for the picture beside it");
     CHECK(complaint_about({"a.nff", "-o"}) == "-o: expected a value after it");
     for (const char* step : {"0", "100", "2x"}) {  // how many there are is the course's business
         const std::string complaint = complaint_about({"a.nff", "-o", "b", "--step", step});
