@@ -9,8 +9,8 @@
 
 namespace raysteps {
 
-/// The stretch of a ray between two distances, enter <= leave. Aligned, as an optional one then goes through memory in
-/// whole: some compilers part it among registers, and wait for the pieces at every box.
+/// The stretch of a ray between two distances, enter <= leave. Aligned, so that an optional one is stored and loaded in
+/// one piece: some compilers store it in several, and the load that follows waits for them at every box.
 struct alignas(16) Interval {
     float enter = 0.0F;
     float leave = std::numeric_limits<float>::infinity();

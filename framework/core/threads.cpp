@@ -57,7 +57,7 @@ void run_on_threads(int count, const std::function<void()>& work) {
         for (int i = 1; i < count; ++i) {
             others.emplace_back(guarded);
         }
-    } catch (const std::system_error&) {
+    } catch (const std::exception&) {  // no more threads, or no memory for one
         // fewer threads than asked for: slower, and the same result
     }
     guarded();

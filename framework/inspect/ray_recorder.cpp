@@ -30,7 +30,7 @@ std::optional<HitRecord> RayRecorder::closest_hit(const RayOrigin& origin, const
     return hit;
 }
 
-/// Not kept: of any ray but a shadow ray a step should want to know what it meets.
+/// Counted and not kept: only shadow rays ask this, and those of a light have a function of their own.
 bool RayRecorder::occluded(const RayOrigin& origin, const Ray& ray, float distance) {
     tree_.leave_out();
     const bool hit = search_any(nullptr, accelerator_, ray, distance);

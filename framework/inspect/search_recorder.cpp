@@ -42,6 +42,12 @@ SearchRecorder::SearchRecorder(const Accelerator& accelerator, std::size_t surfa
     std::sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) { return std::less<>()(a.box, b.box); });
 }
 
+SearchRecorder::~SearchRecorder() {
+    if (t_listening == this) {
+        t_listening = nullptr;
+    }
+}
+
 const SearchRecorder::Known* SearchRecorder::find_known(const Box& box) const {
     const auto found = std::lower_bound(known_.begin(), known_.end(), &box, [](const Known& known, const Box* wanted) {
         return std::less<>()(known.box, wanted);

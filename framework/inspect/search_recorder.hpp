@@ -16,6 +16,9 @@ inline constexpr std::uint64_t k_max_events = 20000;         ///< of the whole p
 class SearchRecorder {
 public:
     SearchRecorder(const Accelerator& accelerator, std::size_t surfaces);
+    ~SearchRecorder();  // stops listening, where a search threw before its end
+    SearchRecorder(const SearchRecorder&) = delete;
+    SearchRecorder& operator=(const SearchRecorder&) = delete;
 
     /// What is asked from here on belongs to this ray; null: it is only counted.
     void begin(RayNode* node);

@@ -32,7 +32,11 @@ Stack::Stack() {
     size_ = k_stack_bytes + k_page_bytes - made++ * k_shift_bytes % k_page_bytes;
     base_ = mmap(nullptr, k_mapped_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (base_ == MAP_FAILED || mprotect(base_, k_guard_bytes, PROT_NONE) != 0) {
-        throw std::system_error(errno, std::generic_category(), "no stack for a fiber");
+        const int reason = errno;
+        if (base_ != MAP_FAILED) {
+            munmap(base_, k_mapped_bytes);
+        }
+        throw std::system_error(reason, std::generic_category(), "no stack for a fiber");
     }
     // The sanitizer still knows what lay here on a stack that was given back.
     ASAN_UNPOISON_MEMORY_REGION(lowest(), k_mapped_bytes - k_guard_bytes);

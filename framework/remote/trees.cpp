@@ -86,7 +86,7 @@ SurfaceList read_entries(Reader& in, const SurfaceList& group) {
 
 void write_parts(Writer& out, const Node& node, const IndexOf& index_of, int depth = 1) {
     if (depth > k_deepest) {
-        throw std::length_error("the tree has more than 2000 levels");
+        throw std::length_error("the tree has more than " + std::to_string(k_deepest) + " levels");
     }
     write(out, node.box);
     write_entries(out, node.surfaces, index_of);
@@ -101,8 +101,10 @@ struct Bounds {
     int levels = k_deepest;
     std::size_t children = ~std::size_t{0};  ///< of a box
 };
-/// Of a tree that a box wants the reference to search, as it would search its own.
-constexpr Bounds k_searched_at_home{.levels = 64, .children = 8};
+/// Of a tree that a box wants the reference to search, as it would search its own: the contracts of build_octree and
+/// build_bvh allow no more.
+constexpr Bounds k_searched_at_home{.levels = 500, .children = 8};
+constexpr int k_deepest_bvh = 64;
 
 // Whether the reference can search a tree that comes from a box. A search follows every number in a tree; a tree of the
 // reference's own never leads out.
@@ -127,7 +129,7 @@ bool is_searchable(const Bvh& bvh) {
     while (!rest.empty()) {
         const auto [place, level] = rest.back();
         rest.pop_back();
-        if (place >= bvh.nodes.size() || reached[place] || level > k_searched_at_home.levels) {
+        if (place >= bvh.nodes.size() || reached[place] || level > k_deepest_bvh) {
             return false;
         }
         reached[place] = true;
@@ -326,8 +328,7 @@ void begin(const KnownTree<Bvh>& known, const Search<Bvh>& search, Reader& in) {
 template <typename Tree>
 void require_searchable(const Tree& tree, FunctionId search) {
     if (Session::offers(search) && !is_searchable(tree)) {
-        throw std::invalid_argument(
-            "the tree leads out of itself, has more than 64 levels, or more than 8 boxes in one");
+        throw std::invalid_argument("the tree leads out of itself, has too many levels, or more than 8 boxes in one");
     }
 }
 

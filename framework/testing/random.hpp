@@ -32,7 +32,8 @@ public:
 
     [[nodiscard]] std::uint32_t seed() const { return seed_; }
 
-    /// low <= result < high. The standard's distributions may differ between libraries; this does not.
+    /// low <= result <= high, as rounding may reach high. The standard's distributions may differ between libraries;
+    /// this does not.
     float uniform(float low, float high) {
         const float share = static_cast<float>(engine_() >> 8U) * (1.0F / 16777216.0F);
         return low + share * (high - low);

@@ -180,7 +180,8 @@ void ProgressiveRenderer::add_samples(const FilmSampler& sampler, int before, co
     for (int y = area.y; y < area.y + area.height; ++y) {
         for (int x = area.x; x < area.x + area.width; ++x) {
             Color& mean = frame_.colors.at(x, y);
-            mean += (pixels[next++].color - mean) / static_cast<float>(before + 1);
+            const Color& color = pixels[next++].color;
+            mean = before == 0 ? color : mean + (color - mean) / static_cast<float>(before + 1);
         }
     }
     say_traced(pixels.size());

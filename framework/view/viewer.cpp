@@ -39,7 +39,7 @@ std::filesystem::path free_name(const std::string& scene) {
 
 class Viewer {
 public:
-    Viewer(Scene& scene, const ViewerOptions& options)
+    Viewer(const Scene& scene, const ViewerOptions& options)
         : options_(options),
           accelerators_(scene),
           renderer_(scene, accelerators_, options.threads),
@@ -211,6 +211,6 @@ private:
 
 }  // namespace
 
-void run_viewer(Scene& scene, const ViewerOptions& options) { Viewer(scene, options).run(); }
+void run_viewer(const Scene& scene, const ViewerOptions& options) { Viewer(scene, options).run(); }
 
 }  // namespace raysteps

@@ -19,6 +19,6 @@ struct ViewerOptions {
 };
 
 /// Until the window is closed. The scene's camera is where it starts. Throws WindowError.
-void run_viewer(Scene& scene, const ViewerOptions& options);
+void run_viewer(const Scene& scene, const ViewerOptions& options);
 
 }  // namespace raysteps

@@ -75,7 +75,7 @@ private:
 [[nodiscard]] Fill read_fill(TokenReader& words);        ///< colour, kd, ks, shine, transmittance, index
 [[nodiscard]] Light read_light(TokenReader& words);      ///< position, colour
 [[nodiscard]] Box read_box(TokenReader& words);          ///< min, max
-/// Position, fill, normal, ray direction, distance, from outside.
+/// Position, fill, normal, ray direction, distance, front face.
 [[nodiscard]] HitRecord read_hit(TokenReader& words);
 /// How many, then each.
 [[nodiscard]] std::vector<Light> read_lights(TokenReader& words);

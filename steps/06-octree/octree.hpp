@@ -29,8 +29,8 @@ namespace raysteps {
 /// The tree over all surfaces. A surface is in the list of each leaf that it overlaps, or in the list of a
 /// node above them. No surfaces: a leaf with an empty list.
 /// Depth and size of the leaves are yours to choose; the paper's three levels (1, 8 and 64 boxes) will do.
-/// A box without surfaces need not be split. Trees of small scenes are looked through box by box, and so have a limit:
-/// 5000 boxes, 50000 entries in all lists and 500 levels.
+/// A box without surfaces need not be split, and none has more than eight children. Trees of small scenes are looked
+/// through box by box, and so have a limit: 5000 boxes, 50000 entries in all lists and 500 levels.
 [[nodiscard]] Node build_octree(const SurfaceList& surfaces);
 
 /// The same answer as closest_hit over all surfaces of the tree, with fewer tests. Of several surfaces at the very same
