@@ -1,11 +1,13 @@
 """One state of the kit and another."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from raysteps.course.project import Project
-from raysteps.toolchain.fingerprint import fingerprint
+from raysteps.toolchain.fingerprint import GRADING, fingerprint
 
 pytestmark = pytest.mark.portable
 
@@ -53,6 +55,7 @@ def test_what_a_grade_depends_on_counts(copy: Project, name: str) -> None:
         "grader/src/raysteps/report/student.py",
         "scenes/mine.ppm",
         "grader/src/raysteps/cli/render.py",
+        "grader/src/raysteps/desk/desk.py",
         "tools/bench/charts.py",
         "scenes/.DS_Store",
         "grader/src/raysteps/cli/__pycache__/app.cpython-311.pyc",
@@ -63,3 +66,13 @@ def test_what_lies_beside_it_does_not(copy: Project, name: str) -> None:
     (copy.root / name).parent.mkdir(parents=True, exist_ok=True)
     (copy.root / name).write_text("x")
     assert fingerprint(copy) == before
+
+
+def test_every_package_that_grading_loads_counts() -> None:
+    """In a process of its own: this one has loaded many others."""
+    modules = ("classroom.worker", "grading.pipeline", "submission.load", "sandbox.detect")
+    asked = "; ".join(f"import raysteps.{module}" for module in modules)
+    told = "print(*{name.split('.')[1] for name in sys.modules if name.startswith('raysteps.')})"
+    command = [sys.executable, "-P", "-c", f"import sys; {asked}; {told}"]
+    loaded = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
+    assert set(loaded) == set(GRADING)

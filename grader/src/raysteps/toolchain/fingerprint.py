@@ -9,7 +9,10 @@ from raysteps.course.project import Project
 
 # Folders, and which of their files count: what an editor leaves beside them does not, nor do a student's own steps,
 # nor the packages that change no grade.
-_NO_GRADE = "bootstrap|cli|exports|gallery|inspector|progress|release|report|updater|watch"
+GRADING = (
+    "classroom", "common", "course", "diagnosis", "grading", "images", "judge", "results", "sandbox", "submission",
+    "toolchain",
+)  # fmt: skip
 _SOURCES = {
     "framework": r".*\.(hpp|cpp|cmake|txt)",
     "cmake": r".*\.cmake",
@@ -18,7 +21,7 @@ _SOURCES = {
     "steps": r"[0-9]{2}-[a-z0-9-]+/(step\.toml|\w+\.hpp|\w+_test\.cpp)",
     "grader/stubs": r".*\.cpp",
     "reference": r".*\.(png|json)",
-    "grader/src": rf"raysteps/(?!({_NO_GRADE})/).*\.(py|json)",
+    "grader/src": rf"raysteps/({'|'.join(GRADING)})/.*\.(py|json)",
 }
 
 
