@@ -3,6 +3,7 @@
 import argparse
 import json
 import re
+import shutil
 import sqlite3
 import zipfile
 from collections.abc import Iterator
@@ -20,8 +21,16 @@ from raysteps.classroom.jobs import Job, JobResult
 from raysteps.classroom.local_pool import LocalPool
 from raysteps.cli import export as exports
 from raysteps.cli.grade_class import add_arguments, read_options
-from raysteps.common.errors import UsageError
-from raysteps.course.manifest import chosen_steps, course_manifests, course_steps, dated_steps, read_step, read_steps
+from raysteps.common.errors import GraderFault, UsageError
+from raysteps.course.manifest import (
+    chosen_steps,
+    course_manifests,
+    course_steps,
+    dated_steps,
+    read_all_steps,
+    read_step,
+    read_steps,
+)
 from raysteps.course.project import Project, here
 from raysteps.course.settings import COURSE_VARIABLE, Course, read_course
 from raysteps.release.build_release import due_steps
@@ -222,6 +231,23 @@ def test_points_go_out_as_they_stand_in_the_course(tmp_path: Path, place: Path, 
     there.parent.mkdir()
     there.write_bytes(made)
     assert read_step(there).points == float(points)
+
+
+def test_points_are_found_however_the_manifest_writes_them(tmp_path: Path, place: Path) -> None:
+    place.write_text("[points]\n02 = 25\n")
+    course = Project(tmp_path / "kit")
+    shutil.copytree(here().steps, course.steps, ignore=lambda folder, names: {name for name in names if "." in name})
+    course.solutions.mkdir()
+    for step in read_all_steps(here()):
+        shutil.copy(here().steps / step.id / "step.toml", course.steps / step.id)
+    path = course.steps / "02-intersection" / "step.toml"
+    text = path.read_text()
+    for line in ('  "points" = 20', "points=20"):
+        path.write_text(text.replace("\npoints = 20\n", f"\n{line}\n"))
+        assert [*course_manifests(course).values()] == [text.replace("points = 20", "points = 25").encode()]
+    path.write_text(text.replace("\npoints = 20\n", '\n"p\\u006fints" = 20\n'))
+    with pytest.raises(GraderFault, match="expected a line such as points = 10"):
+        course_manifests(course)
 
 
 @pytest.mark.usefixtures("fake_grader")

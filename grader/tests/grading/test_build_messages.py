@@ -1,6 +1,7 @@
 """What is said when a step does not build."""
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from typing import cast
 
@@ -234,6 +235,12 @@ def test_other_ends_of_a_compiler(shadows: Step, said: TaskResult, expected: str
 def test_a_compiler_that_was_stopped(shadows: Step) -> None:
     message = compile_message(shadows, SOURCE, ran("", stopped="wall", seconds=60.2))
     assert message.startswith("It does not build: the compiler was stopped after 60 s")
+
+
+def test_a_linker_that_is_stopped_is_told_as_such() -> None:
+    stopped = ran("")
+    assert link_message(replace(stopped, stopped="cpu")) == "It does not build: the linker took too long."
+    assert "more memory" in link_message(replace(stopped, stopped="memory"))
 
 
 def test_no_escape_codes_reach_the_terminal(shadows: Step) -> None:

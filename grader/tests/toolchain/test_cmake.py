@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from raysteps.common.process import Outcome
 from raysteps.course.project import Project
 from raysteps.toolchain import kit_artifacts
-from raysteps.toolchain.cmake import BuildTree, _BuildProgress, release_tree
+from raysteps.toolchain.cmake import BuildTree, _BuildProgress, release_tree, what_failed
 from tools.selftest.programs import use_caches
 
 
@@ -159,3 +160,10 @@ def test_a_build_does_not_say_it_all_the_time(monkeypatch: pytest.MonkeyPatch) -
     for done in range(140):
         how_far.heard(f"[{done}/140] Building\n".encode())
     assert not said
+
+
+def test_the_first_failure_is_shown_however_early_it_stands() -> None:
+    early = Outcome(1, False, "a.cpp:1: error: first\n" + "x\n" * 400 + "FAILED: second\n", "", 1.0)
+    assert what_failed(early).startswith("a.cpp:1: error: first\n")
+    late = Outcome(1, False, "x\n" * 400 + "FAILED: second\n", "", 1.0)
+    assert what_failed(late).startswith("FAILED: second")

@@ -113,9 +113,9 @@ class Step:
 
 
 def with_option(args: tuple[str, ...], name: str, value: str) -> tuple[str, ...]:
-    """The arguments of raytrace with that option at their end, in the place of the one that stood there."""
+    """The arguments of raytrace with that option, in the place of the one that stood there, or else at their end."""
     at = args.index(name) if name in args else len(args)
-    return (*args[:at], *args[at + 2 :], name, value)
+    return (*args[:at], name, value, *args[at + 2 :])
 
 
 def _image(table: dict[str, Any]) -> ImageCase:
@@ -579,6 +579,10 @@ def course_manifests(project: Project) -> dict[str, bytes]:
         path = project.steps / step.id / "step.toml"
         if read_step(path).points != step.points:
             line = f"points = {step.points!r}".removesuffix(".0")  # reads back as the same number
-            text = re.sub(r"^points\s*=.*$", line, path.read_text("utf-8-sig"), count=1, flags=re.MULTILINE)
+            text, changed = re.subn(
+                r"^[ \t]*[\"']?points[\"']?\s*=.*$", line, path.read_text("utf-8-sig"), count=1, flags=re.MULTILINE
+            )
+            if not changed:
+                raise GraderFault(f"{path}: expected a line such as points = 10, to write the course's points there")
             made[path.relative_to(project.root).as_posix()] = text.encode()
     return made

@@ -197,7 +197,7 @@ def _other_words(errors: list[_Error]) -> str:
 
 def compile_message(step: Step, source: str, ran: TaskResult) -> str:
     """One sentence, the place, the lines, and what else."""
-    if ran.outcome.timed_out or ran.stopped in ("wall", "cpu"):
+    if ran.hung:
         seconds = f"{ran.outcome.seconds:.0f} s"
         return f"{NOT_BUILT}the compiler was stopped after {seconds}; such a file takes about a second."
     if ran.stopped == "memory":
@@ -393,8 +393,10 @@ def missing_name(output: str) -> tuple[str, str] | None:
 
 def link_message(ran: TaskResult) -> str:
     """Mostly a function that the contract asks for and the file lacks."""
-    if ran.outcome.timed_out:
+    if ran.hung:
         return f"{NOT_BUILT}the linker took too long."
+    if ran.stopped == "memory":
+        return f"{NOT_BUILT}the linker needed more memory than it may have."
     said = printable((ran.outcome.stderr + ran.outcome.stdout)[:_MAX_READ])  # Microsoft's linker complains on stdout
     missing, twice = _MISSING.search(said), _TWICE.search(said)
     if twice is not None:

@@ -126,6 +126,6 @@ def release_tree(project: Project) -> BuildTree:
 def what_failed(outcome: Outcome) -> str:
     """The part of a failed build that a person needs: from its first failure on."""
     text = printable(outcome.stdout + outcome.stderr)
-    starts = [at for at in (text.find("FAILED:"), text.find("error:") - 400, text.find("error C") - 400) if at > 0]
-    start = min(starts, default=0)
+    before = {"FAILED:": 0, "error:": 400, "error C": 400}  # how much of what comes before the word is shown, too
+    start = min((max(0, text.find(word) - shown) for word, shown in before.items() if word in text), default=0)
     return shorten(text[text.rfind("\n", 0, start) + 1 :], 6000)
