@@ -44,6 +44,8 @@ def check_name(project: Project, name: str, part: int) -> None:
     taken = next((step.id for step in steps if step.number == number), None)
     if taken is not None:
         raise UsageError(f"'{name}': {taken} has this number already; the next one is {following}-{words}")
+    if following not in numbers:
+        raise UsageError(f"'{name}': part {part} has no number left; its steps are {numbers[0]} to {numbers[-1]}")
     if int(number) != following:
         raise UsageError(
             f"'{name}': new steps of part {part} count on from {numbers.start}; expected {following}-{words}"

@@ -358,12 +358,12 @@ def parts_of(project: Project) -> dict[str, str | None]:
     }
 
 
-def replace_part(page: str, name: str, content: str) -> str:
-    """The page with new content between its two marks."""
+def replace_part(page: str, name: str, content: str, document: str) -> str:
+    """The page with new content between its two marks. `document` stands for it in messages."""
     begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
     if len(pattern.findall(page)) != 1:
-        raise GraderFault(f"docs/{page_of(name)}: expected one part between '{begin}' and '{end}'")
+        raise GraderFault(f"docs/{document}: expected one part between '{begin}' and '{end}'")
     return pattern.sub(lambda _: f"{begin}\n{content}\n{end}", page)
 
 
@@ -386,7 +386,7 @@ def bench_docs(project: Project, console: Console) -> int:
             if content is None:
                 console.print(f"not measured here, left as it is: {name}")
             else:
-                page = replace_part(page, name, content)
+                page = replace_part(page, name, content, document)
         changed = write_if_changed(path, page.encode())
         console.print(escape(f"{path} {'written' if changed else 'is up to date'}"), soft_wrap=True)
     return 0

@@ -13,6 +13,7 @@ from typing import TypeVar
 
 from raysteps.common.documents import Malformed, convert
 from raysteps.common.errors import GraderFault, UsageError
+from raysteps.common.platform import processor_count
 from raysteps.common.process import Outcome, run
 from raysteps.course.project import Project, generated
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
@@ -62,7 +63,7 @@ def machine(built: Path) -> Machine:
     optimization = [flag for flag in description.compile_flags if flag.startswith(("-O", "-m", "/O"))]
     system = f"{platform.system()} {platform.machine()}"
     flags = " ".join(optimization)
-    return Machine(_processor(), os.cpu_count() or 1, system, description.compiler_version, flags, can_pin_processor())
+    return Machine(_processor(), processor_count(), system, description.compiler_version, flags, can_pin_processor())
 
 
 _NATIVE = "-march=native"

@@ -64,7 +64,7 @@ PLANTED = (
 )
 
 
-def is_average(step: Step, plan: Plan, seed: int) -> set[tuple[str, str]]:
+def averages_of(step: Step, plan: Plan, seed: int) -> set[tuple[str, str]]:
     """Functions and kinds of cases that ask for a mean to some precision, and for nothing exact."""
     cases = [case for function in plan.functions for case in make_cases(step, function, seed)]
     return {(case.function, case.group) for case in cases if "precision" in case.inputs}
@@ -149,7 +149,7 @@ def _once(kit: BuiltKit) -> Ask:
 
 def grade_seed(files: _Files, kit: BuiltKit, seed: int, rates: StepRates, *, planted: bool) -> None:
     """All right solutions with one seed, and the biased ones where they are asked for."""
-    averages = is_average(files.step, files.plan, seed)
+    averages = averages_of(files.step, files.plan, seed)
     rates.has_averages = bool(averages)
     reference = _once(kit)
     for name, ask in {"the reference": reference, **files.right}.items():
@@ -199,7 +199,10 @@ def _write(project: Project, all_rates: Sequence[StepRates], seed: int) -> None:
     grades = sum(rates.right.grades for rates in all_rates)
     words = f"{grades} grades of right solutions, seeds from {seed} on."
     page = replace_part(
-        path.read_text(encoding="utf-8"), "errors", f"{words}\n\n{markdown(HEADINGS, rows_of(all_rates))}"
+        path.read_text(encoding="utf-8"),
+        "errors",
+        f"{words}\n\n{markdown(HEADINGS, rows_of(all_rates))}",
+        path.name,
     )
     write_if_changed(path, page.encode())
 
@@ -250,6 +253,8 @@ def errors(project: Project, options: ErrorOptions, console: Console, say: Progr
     if len(steps) < len(chosen) and options.only:
         exact = next(step for step in chosen if step not in steps)
         raise UsageError(f"--only {exact.number}: nothing of its grade is left to chance; expected steps of part two")
+    if not steps:
+        raise UsageError("nothing of a grade is left to chance here; expected a kit that has part two")
     start = time.monotonic()
     all_rates: list[StepRates] = []
     for all_rates in measure(build_kit(project, say, of_all_parts=True), steps, plain_sandbox(), options, say):

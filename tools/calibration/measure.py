@@ -296,7 +296,7 @@ class PictureShares:
         view = self._views[place]
         rendered = render(LimitsOnly(), program, view.scene, view.args, limits.of_program())
         if rendered.pixels is None:
-            return _NO_PICTURE, rendered.ran.outcome.timed_out
+            return _NO_PICTURE, rendered.ran.hung
         return compare(rendered.pixels, self._reference[place], 0.0).wrong_share, False
 
 

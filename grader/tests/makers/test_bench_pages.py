@@ -73,15 +73,16 @@ def test_a_table_keeps_its_columns_apart() -> None:
 def test_only_the_part_between_the_marks_is_replaced() -> None:
     page = "above\n<!-- begin scale -->\nold\n<!-- end scale -->\nbelow\n"
     expected = "above\n<!-- begin scale -->\nnew \\1\n<!-- end scale -->\nbelow\n"
-    assert replace_part(page, "scale", "new \\1") == expected
-    with pytest.raises(GraderFault, match="expected one part between '<!-- begin loop -->'"):
-        replace_part(page, "loop", "new")
+    assert replace_part(page, "scale", "new \\1", "a.md") == expected
+    with pytest.raises(GraderFault, match=r"docs/a\.md: expected one part between '<!-- begin loop -->'"):
+        replace_part(page, "loop", "new", "a.md")
 
 
 def test_the_page_has_a_part_for_each_benchmark(project: Project) -> None:
     for kind in get_args(Numbers):
-        page = (project.root / "docs" / page_of(kind.name)).read_text(encoding="utf-8")
-        assert "\nnew\n" in replace_part(page, kind.name, "new")
+        document = page_of(kind.name)
+        page = (project.root / "docs" / document).read_text(encoding="utf-8")
+        assert "\nnew\n" in replace_part(page, kind.name, "new", document)
 
 
 def test_what_is_waited_for_is_told_by_the_least_and_the_median() -> None:

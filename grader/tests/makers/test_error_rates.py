@@ -20,8 +20,8 @@ from tools.calibration.error_rates import (
     ErrorOptions,
     StepRates,
     Tally,
+    averages_of,
     errors,
-    is_average,
     rows_of,
 )
 
@@ -76,14 +76,14 @@ def test_the_cases_that_ask_for_a_mean_are_known(project: Project) -> None:
     for step in choose(kit_steps(project), ["12", "13", "15"]):
         plan = read_plan(project, step)
         assert plan is not None
-        found[step.number] = {function for function, _ in is_average(step, plan, 1)}
+        found[step.number] = {function for function, _ in averages_of(step, plan, 1)}
     assert found == {"12": set(), "13": {"path_light"}, "15": {"mis_path_light"}}
 
 
 @pytest.mark.portable
 def test_the_page_has_a_part_for_the_table(project: Project) -> None:
     page = (project.root / "docs" / "judge.md").read_text(encoding="utf-8")
-    assert "\nnew\n" in replace_part(page, "errors", "new")
+    assert "\nnew\n" in replace_part(page, "errors", "new", "judge.md")
 
 
 @pytest.mark.portable
