@@ -3,8 +3,9 @@
 import pytest
 
 from raysteps.common.vectors import Vector, add, minus, times, unit
+from raysteps.judge.answers import FARTHEST
 from raysteps.judge.functions import Case, functions_of
-from raysteps.judge.hits import FARTHEST, hit_of
+from raysteps.judge.hits import hit_of
 from raysteps.judge.protocol import Light, text
 from raysteps.judge.random_source import RandomSource
 

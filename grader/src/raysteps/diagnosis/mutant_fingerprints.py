@@ -98,12 +98,12 @@ class _Learner:
         self._step = step
         self._questions = {} if plan is None else questions_of(kit, step, plan, step.functions)
         self._folder = folder
-        self._air = sandbox
+        self._sandbox = sandbox
         self._limits = replace(limits_of(step, {}), seconds=_SECONDS, compile_seconds=_COMPILE_SECONDS)
         self._reference = reference_source(kit.project, step)
 
     def learn(self, name: str, mutant: Mutant) -> MutantFingerprint:
-        build = StudentBuild(self._kit.in_one_process(), self._air, self._folder / name)
+        build = StudentBuild(self._kit.in_one_process(), self._sandbox, self._folder / name)
         compiled = build.compile(self._step, mutant.applied(self._reference).encode(), self._limits)
         if compiled.binary is None:
             said = shorten(compiled.ran.outcome.stderr.strip(), 1000)
@@ -120,7 +120,7 @@ class _Learner:
         return MutantFingerprint(answers, self._pictures(program("raytrace")))
 
     def _answers(self, worker: Program) -> WrongAnswers:
-        return collect_wrong_answers(self._questions, ask_student(self._air, worker, self._limits), _SECONDS)
+        return collect_wrong_answers(self._questions, ask_student(self._sandbox, worker, self._limits), _SECONDS)
 
     def _pictures(self, raytrace: Program) -> dict[str, Pixels]:
         """Those that it makes, asked for in the words of a grade: whoever keeps answers draws each once."""
@@ -128,7 +128,7 @@ class _Learner:
         for case in self._step.images:
             scene = self._kit.project.root / case.scene
             limits = self._limits.of_program()
-            rendered = render(self._air, raytrace, scene, case.args, limits, estimates=case.is_noisy)
+            rendered = render(self._sandbox, raytrace, scene, case.args, limits, estimates=case.is_noisy)
             if rendered.pixels is not None:
                 pictures[case.name] = rendered.pixels
         return pictures

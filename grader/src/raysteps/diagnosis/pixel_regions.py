@@ -89,7 +89,7 @@ def object_map(kit: BuiltKit, scene: Path, args: Sequence[str]) -> ObjectMap:
 
 
 _ALL_BUT_FEW = 0.95  # of the wrong pixels count for all
-_NEARLY_ALL = 0.9  # of the picture
+_NEARLY_ALL = 0.9  # of the picture: where it is wrong says nothing
 _MAX_NAMED = 3
 _EDGES = 0.9
 _SMALL = 0.5  # of the picture: a part that is worth its numbers
@@ -251,7 +251,6 @@ class Terms:
 
 
 _MAX = 2
-_NEARLY_ALL = 0.9  # of the picture: where it is wrong says nothing
 
 
 def findings(kit: BuiltKit, step: Step, pictures: Mapping[str, Picture]) -> Iterator[Diagnosis]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from raysteps.common.text import join_and
-from raysteps.course.manifest import ImageCase, Step
+from raysteps.course.manifest import ImageCase, Step, with_option
 from raysteps.grading.unit_tests import limits_after
 from raysteps.images.compare import (
     MAX_PARTIAL_SHARE,
@@ -179,8 +179,7 @@ def _beside_no_tree(
 ) -> Comparison | None:
     """A tree must change no pixel. So where earlier steps are the student's, too, a picture is right if it is the one
     that the same program draws without a tree; none where it is not, or shows nothing."""
-    at = case.args.index(_TREE) + 1
-    plain = image_grader.render(program, scene, (*case.args[:at], _NO_TREE, *case.args[at + 1 :])).pixels
+    plain = image_grader.render(program, scene, with_option(case.args, _TREE, _NO_TREE)).pixels
     if plain is None or is_flat(pixels):
         return None
     verdict = compare(pixels, plain, case.max_wrong)

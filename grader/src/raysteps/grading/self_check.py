@@ -122,6 +122,7 @@ def name_crash(
         return
     say(f"{step.id} {'crashed' if has_crashed(tests[step.id][0]) else 'did not end'}: looking for the line")
     alone, limits = kit.has_reference, kit.limits_of(step)
+    test, result = tests[step.id][0], next(result for result in found if result.id == step.id)
     with suppress(RaystepsError, OSError), tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         counted = AccountingSandbox(sandbox)
         context = GradingContext(kit.sanitized(), submission, counted, Path(folder), Path(folder))
@@ -129,16 +130,14 @@ def name_crash(
         with ThreadPoolExecutor(processor_count()) as pool, counted.until_interrupted():
             compiled = compile_steps(context, sources, pool, {})
         binary = compiled[step.id].binary
-        if binary is not None:
-            binaries = own_steps(context, step, compiled) | {step.number: binary}
-            build = StudentBuild(context.kit, sandbox, context.folder)
-            program, _ = build.program("test", step, binaries, limits, together=not alone)
-            if program is not None:
-                files = [Path(other.path).name for other in sources]
-                test, result = tests[step.id][0], next(result for result in found if result.id == step.id)
-                said = test.message
-                if tell_crash_line(sandbox, program, test, limits, files):
-                    result.messages = [test.message if message == said else message for message in result.messages]
+        if binary is None:
+            return
+        binaries = own_steps(context, step, compiled) | {step.number: binary}
+        build = StudentBuild(context.kit, sandbox, context.folder)
+        program, _ = build.program("test", step, binaries, limits, together=not alone)
+        files, said = [Path(other.path).name for other in sources], test.message
+        if program is not None and tell_crash_line(sandbox, program, test, limits, files):
+            result.messages = [test.message if message == said else message for message in result.messages]
 
 
 _TROUBLE = {

@@ -195,7 +195,7 @@ def render(
     *,
     estimates: bool = False,
 ) -> RenderResult:
-    """Both at once."""
+    """Runs the program for one picture; the result holds no pixels where it made none, and why."""
     task = picture_task(program, scene, args, limits, estimates=estimates)
     return read_rendered(sandbox.run(task), estimates=estimates)
 
@@ -387,7 +387,7 @@ def describe_exit(ran: TaskResult, what: str, *, sooner: bool = False) -> tuple[
     outcome = ran.outcome
     if ran.stopped == "memory":
         return "crashed", f"{what} needed more memory than a program may have here."
-    if outcome.timed_out or ran.stopped in ("wall", "cpu"):
+    if ran.hung:
         return "timeout", not_in_time(what, outcome.seconds, sooner=sooner)
     if outcome.signal_name is not None:
         return "crashed", f"{what} was not made: the program crashed ({outcome.signal_words})."

@@ -8,7 +8,7 @@ from raysteps.judge.answers import Answer, TooLarge, TooMuchWork
 from raysteps.judge.protocol import Box, Inputs, ProtocolError, TokenReader
 from raysteps.judge.surfaces import Sphere, Surface, Surfaces, Triangle
 
-# Whoever writes an answer by hand may write any tree; framework/worker/simple_bvh.cpp knows the same numbers.
+# Whoever writes an answer by hand may write any tree; framework/worker/protocol.hpp knows the same numbers.
 MAX_NODES = 5000
 MAX_ENTRIES = 50000
 _MAX = {"nodes": f"{MAX_NODES} nodes", "surfaces": f"{MAX_ENTRIES} surfaces"}

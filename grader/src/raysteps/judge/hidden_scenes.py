@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from raysteps.common.documents import read_text
 from raysteps.common.errors import GraderFault
 from raysteps.common.vectors import Vector, add, cross, dot, length, minus, times, unit
-from raysteps.course.manifest import ImageCase, Step
+from raysteps.course.manifest import ImageCase, Step, with_option
 from raysteps.course.project import Project
 from raysteps.judge.plan import Plan, RandomPlan, TwinPlan
 from raysteps.judge.random_source import RandomSource
@@ -161,18 +161,11 @@ class HiddenScene:
     max_noise: float | None = None
 
 
-def _with_size(args: tuple[str, ...], size: str) -> tuple[str, ...]:
-    if "--size" not in args:
-        return (*args, "--size", size)
-    place = args.index("--size") + 1
-    return (*args[:place], size, *args[place + 1 :])
-
-
 def _twin(project: Project, step: Step, twin: TwinPlan, image: ImageCase, seed: int) -> HiddenScene:
     draw = RandomSource(f"{seed}/{step.id}/{twin.twin_of}")
     text = read_text(project.root / image.scene)
     nff = perturbed_scene(text, draw, spheres=twin.moves == "camera and spheres")
-    args = _with_size(image.args, twin.size)
+    args = with_option(image.args, "--size", twin.size)
     share = None if image.max_share is None else min(1.0, _SHARE_SLACK * image.max_share)
     return HiddenScene(f"{image.name}-twin", image.name, nff, args, twin.max_wrong, share, twin.weight, image.max_noise)
 

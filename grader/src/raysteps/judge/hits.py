@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from raysteps.common.vectors import Vector, add, dot, length, minus, times
 from raysteps.judge.answers import (
+    FARTHEST,
     LENGTHS,
     SMALL,
     Answer,
@@ -127,8 +128,6 @@ FOUND = Answer(read_hit, found_words, lambda _inputs, expected, actual: found_pr
 
 # Answers that are rays which leave a surface.
 
-FARTHEST = 0.0101  # from the hit; the kit's threshold is 0.001
-
 
 def hit_of(inputs: Inputs) -> Hit:
     hit = inputs["hit"]
@@ -138,7 +137,7 @@ def hit_of(inputs: Inputs) -> Hit:
 
 def leaves_surface(hit: Hit, ray: Ray, *, side: float = 1.0) -> str:
     """The origin is a little off the surface; side -1 is the one behind it."""
-    return ray_start_problem(hit.position, times(side, hit.normal), ray.origin, FARTHEST)
+    return ray_start_problem(hit.position, times(side, hit.normal), ray.origin)
 
 
 def _shadow_problems(inputs: Inputs, actual: Ray) -> tuple[str, str]:

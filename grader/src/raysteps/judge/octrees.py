@@ -94,7 +94,8 @@ class Boxes:
 
 _Table: TypeAlias = npt.NDArray[np.bool_]  # of nodes (rows) and surfaces (columns)
 
-# Whoever writes an answer by hand may write any tree; framework/worker/simple_octree.cpp knows the same numbers.
+# Whoever writes an answer by hand may write any tree; framework/worker/protocol.hpp and simple_octree.cpp know the same
+# numbers.
 MAX_NODES = 5000
 MAX_ENTRIES = 50000
 DEEPEST = 500

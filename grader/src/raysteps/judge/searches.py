@@ -135,9 +135,7 @@ def too_many_asked(inputs: Inputs, expected: Sequence[int], asked: Sequence[int]
     surfaces = inputs["surfaces"]
     assert isinstance(surfaces, Surfaces)
     if len(asked) > 1 and sum(asked) > MAX_ASKED_SHARE * len(surfaces.surfaces) * len(asked):
-        return TooMuchWork(
-            "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
-        )
+        return TooMuchWork(_TOO_MANY_ASKED)
     return ""
 
 
@@ -194,6 +192,7 @@ OCCLUSIONS: Answer[tuple[Occlusion, ...]] = Answer(
 
 # Searches through a tree of step 09: as those of step 06, and whether anything is hit before a distance.
 
+_TOO_MANY_ASKED = "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
 _ALL_ASKED = 0.9  # no tree at all, or a single leaf: a poor tree spares the rays more than that
 _MAX_TIMES = 2.0  # what the reference asks, in a tree that is given
 
@@ -207,8 +206,7 @@ def work_problem(inputs: Inputs, expected: Sequence[int], actual: Sequence[int])
         return ""
     share = sum(actual) / (len(surfaces.surfaces) * len(actual))
     if share > MAX_ASKED_SHARE:
-        said = "the hits are right, but too many surfaces were asked: the boxes must spare the rays most of them"
-        return TooMuchWork(said) if share > _ALL_ASKED else said
+        return TooMuchWork(_TOO_MANY_ASKED) if share > _ALL_ASKED else _TOO_MANY_ASKED
     if not tree.own and sum(actual) > _MAX_TIMES * sum(expected):
         return "the hits are right, but surfaces were asked that the tree could have spared the rays"
     return ""

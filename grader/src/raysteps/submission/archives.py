@@ -239,8 +239,7 @@ DAMAGED = (
     lzma.LZMAError,
     ValueError,
     EOFError,
-    RuntimeError,  # too many headers in one another
-    NotImplementedError,
+    RuntimeError,  # too many headers in one another, and a method that is not implemented
     LookupError,
     OverflowError,
     MemoryError,  # a few bytes may ask for a dictionary of gigabytes

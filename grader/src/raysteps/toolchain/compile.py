@@ -99,8 +99,7 @@ def unqualified_name(linker_name: str) -> str:
     return name
 
 
-def nm_arguments() -> tuple[str, ...]:
-    return ("--extern-only", "--format=posix")
+_NM_ARGUMENTS = ("--extern-only", "--format=posix")
 
 
 def _without_kind_and_place(line: str) -> str:
@@ -121,7 +120,7 @@ def parse_readable(plain: str, readable: str) -> dict[str, str]:
 
 def readable_names(nm: str, path: Path) -> dict[str, str]:
     """Linker names of one of the kit's own objects, and how C++ writes them."""
-    words = [nm, *nm_arguments(), "--defined-only", "--no-sort"]
+    words = [nm, *_NM_ARGUMENTS, "--defined-only", "--no-sort"]
     plain, readable = (
         run([*words, *option, path], seconds=_SECONDS, cap=_MAX_OUTPUT).stdout for option in ((), ("--demangle",))
     )
@@ -130,7 +129,7 @@ def readable_names(nm: str, path: Path) -> dict[str, str]:
 
 def symbols_of(nm: str, path: Path) -> Symbols:
     """Of one of the kit's own files."""
-    outcome = run([nm, *nm_arguments(), path], seconds=_SECONDS, cap=_MAX_OUTPUT)
+    outcome = run([nm, *_NM_ARGUMENTS, path], seconds=_SECONDS, cap=_MAX_OUTPUT)
     if outcome.code != 0:
         raise GraderFault(f"{path}: its symbols cannot be read: {outcome.stderr}")
     return parse_symbols(outcome.stdout)
@@ -342,7 +341,7 @@ class StudentBuild:
         """Turns an object into a library, unless it asks for what is not its own or lacks what it should have."""
         description = self._kit.description
         assert description.seal is not None
-        listed = self._run(limits, description.seal.nm, *nm_arguments(), Input(raw, "step.o"))
+        listed = self._run(limits, description.seal.nm, *_NM_ARGUMENTS, Input(raw, "step.o"))
         text = listed.outcome.stdout
         if listed.outcome.code != 0 or listed.outcome.timed_out or len(text) >= _MAX_SYMBOLS:
             return Compiled(None, compiled, unreadable=True)
@@ -370,7 +369,7 @@ class StudentBuild:
         tools = self._kit.description.seal
         if not names or tools is None:
             return ()
-        words = (tools.nm, *nm_arguments(), "--undefined-only", "--no-sort")
+        words = (tools.nm, *_NM_ARGUMENTS, "--undefined-only", "--no-sort")
         plain = self._run(limits, *words, Input(raw, "step.o")).outcome.stdout
         readable = self._run(limits, *words, "--demangle", Input(raw, "step.o")).outcome.stdout
         shown = parse_readable(plain, readable)

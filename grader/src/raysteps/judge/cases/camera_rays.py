@@ -1,4 +1,4 @@
-"""Cases of step 01: points on rays; cameras and pixels have modules of their own."""
+"""Cases of step 01: points on rays, what a camera sees, and the rays through its pixels."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Boxes that the cases of step 06 are made of."""
+"""Cases of step 06 about boxes: Box::clip, and which boxes a sphere and a triangle overlap."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Cases of step 05: reflected rays; what they bring has a module of its own."""
+"""Cases of step 05: reflected rays, and what they bring."""
 
 from collections.abc import Sequence
 

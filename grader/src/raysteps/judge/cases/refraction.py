@@ -1,4 +1,4 @@
-"""Cases of step 08: transmitted rays; refracted directions and what comes through glass have modules of their own."""
+"""Cases of step 08: refracted directions, transmitted rays, and what comes through glass."""
 
 import math
 from dataclasses import dataclass, replace

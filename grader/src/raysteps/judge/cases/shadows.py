@@ -1,4 +1,4 @@
-"""Cases of step 04: the shadow ray; is_lit has a module of its own."""
+"""Cases of step 04: the shadow ray, and is_lit."""
 
 from dataclasses import dataclass, replace
 
