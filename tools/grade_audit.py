@@ -5,7 +5,7 @@ import shutil
 import tempfile
 from collections.abc import Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rich.console import Console
@@ -286,49 +286,46 @@ def print_notes(console: Console, seen: Sequence[ObservedGrade]) -> None:
     for (step, name), one in wrong.items():
         if not one.named:
             console.print(f"not named: {step} {name}; said is {one.said}", markup=False, highlight=False)
-    missed: dict[str, list[str]] = {}
+    unnoticed: dict[str, list[str]] = {}
     for (step, name), one in wrong.items():
         if not one.tests_noticed:
-            missed.setdefault(step, []).append(name)
-    for step, names in missed.items():
+            unnoticed.setdefault(step, []).append(name)
+    for step, names in unnoticed.items():
         console.print(f"not noticed by the visible tests: {step}: {', '.join(names)}", markup=False, highlight=False)
 
 
-def _graded(
-    kit: BuiltKit,
-    rounds: Sequence[Round],
-    what: str,
-    seed: int,
-    only: Collection[str],
-    sandbox: Sandbox,
-    say: ProgressCallback,
-) -> list[list[ObservedGrade]]:
-    """Several rounds at a time, each on one processor: the slowest step of one holds up no other. One more than there
-    are processors, since only one of them at a time judges, which is Python."""
+@dataclass(frozen=True)
+class _Audit:
+    """How the rounds of one check are graded."""
 
-    def grade(numbered: tuple[int, Round]) -> list[ObservedGrade]:
-        number, handed_in = numbered
-        say(f"{what} {number} of {len(rounds)}")
-        return grade_round(kit, handed_in, sandbox, seed=seed, only=only)
+    kit: BuiltKit
+    sandbox: Sandbox
+    seed: int
+    only: Collection[str]
+    say: ProgressCallback
 
-    with ThreadPoolExecutor(processor_count() + 1) as pool:
-        return list(pool.map(grade, enumerate(rounds, start=1)))
+    def grade(self, rounds: Sequence[Round], what: str) -> list[list[ObservedGrade]]:
+        """Several rounds at a time, each on one processor: the slowest step of one holds up no other. One more than
+        there are processors, since only one of them at a time judges, which is Python."""
+
+        def grade_one(numbered: tuple[int, Round]) -> list[ObservedGrade]:
+            number, handed_in = numbered
+            self.say(f"{what} {number} of {len(rounds)}")
+            return grade_round(self.kit, handed_in, self.sandbox, seed=self.seed, only=self.only)
+
+        with ThreadPoolExecutor(processor_count() + 1) as pool:
+            return list(pool.map(grade_one, enumerate(rounds, start=1)))
 
 
 def _differs_in_the_sandbox(
-    kit: BuiltKit,
-    rounds: Sequence[Round],
-    graded: Sequence[Sequence[ObservedGrade]],
-    amount: int,
-    seed: int,
-    only: Collection[str],
-    say: ProgressCallback,
+    audit: _Audit, rounds: Sequence[Round], graded: Sequence[Sequence[ObservedGrade]], amount: int
 ) -> list[str]:
     """The first rounds and some others again, as submissions are graded: each step in a box of its own, in the sandbox
     that they get. What comes of it must be the same."""
     others = range(2, len(rounds))
-    chosen = [0, 1, *random.Random(seed).sample(others, len(others))][:amount]  # noqa: S311 - a choice, not a secret
-    again = _graded(kit, [rounds[at] for at in chosen], "in the sandbox", seed, only, find_sandbox(), say)
+    draw = random.Random(audit.seed)  # noqa: S311 - a choice, not a secret
+    chosen = [0, 1, *draw.sample(others, len(others))][:amount]
+    again = audit.grade([rounds[at] for at in chosen], "in the sandbox")
     return [
         f"{kept.entrant.step}: {kept.entrant.name}: {kept.result.points:g} points in the sandbox ({kept.lost}), "
         f"{one.result.points:g} without ({one.lost})"
@@ -338,20 +335,13 @@ def _differs_in_the_sandbox(
     ]
 
 
-def _pairs(
-    kit: BuiltKit,
-    steps: Sequence[Step],
-    amount: int,
-    seed: int,
-    sandbox: Sandbox,
-    console: Console,
-    say: ProgressCallback,
-) -> list[str]:
+def _pairs(audit: _Audit, amount: int, console: Console) -> list[str]:
     """Two mistakes at a time: both must be named."""
-    rounds = random_pairs(kit.project, steps, amount, seed)
-    graded = _graded(kit, rounds, "pair", seed, {step.id for step in steps}, sandbox, say)
+    steps = [step for step in audit.kit.steps if step.id in audit.only]
+    graded = audit.grade(random_pairs(audit.kit.project, steps, amount, audit.seed), "pair")
     both = [seen for seen in graded if all(one.named for one in seen)]
-    console.print(f"{len(both)} of {len(graded)} random pairs of mistakes in two steps have both named (seed {seed})")
+    named = f"{len(both)} of {len(graded)} random pairs of mistakes in two steps have both named"
+    console.print(f"{named} (seed {audit.seed})")
     for seen in graded:
         for one in seen:
             if not one.named:
@@ -391,15 +381,17 @@ def check_truth(
         if step.id in chosen:  # before anybody is graded, and with what is run again for the grades
             mutant_fingerprints(kit, step, read_plan(project, step), read_mutants(project, step), say, sandbox)
     handed_in = rounds_of(project, kit.steps)
-    rounds = _graded(kit, handed_in, "round", seed, chosen, sandbox, say)
+    audit = _Audit(kit, sandbox, seed, chosen, say)
+    rounds = audit.grade(handed_in, "round")
     rows = [row_of(step, [one for seen in rounds for one in seen if one.entrant.step == step]) for step in chosen]
     every = [one for seen in rounds for one in seen]
     console.print(table_of(rows))
     print_notes(console, every)
     problems = problems_of(rounds) + shortfalls(total(rows))
-    problems += _differs_in_the_sandbox(strict, handed_in, rounds, in_sandbox, seed, chosen, say)
+    boxed = replace(audit, kit=strict, sandbox=find_sandbox())
+    problems += _differs_in_the_sandbox(boxed, handed_in, rounds, in_sandbox)
     if pairs:
-        problems += _pairs(kit, [step for step in kit.steps if step.id in chosen], pairs, seed, sandbox, console, say)
+        problems += _pairs(audit, pairs, console)
     for problem in problems:
         console.print(f"not true: {problem}", markup=False, highlight=False)
     if len(chosen) == len(kit.steps):

@@ -43,7 +43,7 @@ from tools.bench.model import (
     keep,
     mean_costs,
 )
-from tools.bench.programs import children_seconds, machine
+from tools.bench.programs import children_seconds, machine, variable
 from tools.bench.tables import median, terminal_table
 
 _SECONDS = 3600
@@ -60,10 +60,12 @@ def _measure(way: str, number: int, submissions: int, work: Callable[[], None]) 
     return Cost(way, number, submissions, round(seconds / submissions, 2), round(processor / submissions, 2))
 
 
-def _must(words: list[str | Path], cwd: Path) -> None:
+def _must(words: list[str | Path], cwd: Path, name: str = "") -> Outcome:
+    """Runs it; messages call it by its first word, where it has no name."""
     outcome = run(words, seconds=_SECONDS, cwd=cwd)
     if outcome.code != 0 or outcome.timed_out:
-        raise GraderFault(f"{words[0]} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
+        raise GraderFault(f"{name or words[0]} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
+    return outcome
 
 
 def plain_way(project: Project, steps: list[Step], submission: Path) -> None:
@@ -141,7 +143,6 @@ def grading(project: Project, rounds: int, console: Console) -> int:
 
 # From a changed file to the result.
 
-_LOOP_SECONDS = 1800
 _START = "import sys; sys.path.insert(0, sys.argv.pop(1)); from raysteps.cli.app import main; sys.exit(main())"
 
 
@@ -165,10 +166,7 @@ def _started_in(kit: Project, *words: str | Path) -> list[str | Path]:
 
 
 def _check(copy: Project, step: Step) -> Outcome:
-    outcome = run(_started_in(copy, "check", step.number), seconds=_LOOP_SECONDS, cwd=copy.root)
-    if outcome.code != 0 or outcome.timed_out:
-        raise GraderFault(f"raysteps check {step.number} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
-    return outcome
+    return _must(_started_in(copy, "check", step.number), copy.root, f"raysteps check {step.number}")
 
 
 def _edit(copy: Project, step: Step, number: int) -> None:
@@ -232,9 +230,7 @@ class _Stopwatch:
         with self._console.status(escape(what)):
             for _ in range(rounds):
                 before = children_seconds()
-                outcome = run(_started_in(self._kit, *words), seconds=_WAITS_SECONDS, cwd=self._kit.root)
-                if outcome.code != 0 or outcome.timed_out:
-                    raise GraderFault(f"raysteps {words[0]} failed: {(outcome.stdout + outcome.stderr)[-2000:]}")
+                outcome = _must(_started_in(self._kit, *words), self._kit.root, f"raysteps {words[0]}")
                 clock.append(outcome.seconds)
                 processor.append(children_seconds() - before)
         return WaitsRow(what, Spread.of(clock), Spread.of(processor))
@@ -278,18 +274,6 @@ def _save_to_picture(kit: Project, number: str, rounds: int) -> WaitsRow:
     return WaitsRow(f"watch {number}, from a save to tests and pictures", Spread.of(seconds), None)
 
 
-@contextmanager
-def _without_compiler_cache() -> Iterator[None]:
-    before = os.environ.get("CCACHE_DISABLE")
-    os.environ["CCACHE_DISABLE"] = "1"
-    try:
-        yield
-    finally:
-        del os.environ["CCACHE_DISABLE"]
-        if before is not None:
-            os.environ["CCACHE_DISABLE"] = before
-
-
 def bench_waits(project: Project, options: WaitsOptions, console: Console) -> int:
     """Measures in a copy of the kit in which nothing is built, prints a table and writes build/bench/waits.json."""
     refuse_on_windows("bench waits")
@@ -297,7 +281,7 @@ def bench_waits(project: Project, options: WaitsOptions, console: Console) -> in
         folder = Path(name)
         kit = _copy_with_solutions(project, folder / "kit")
         typed = _Stopwatch(kit, console)
-        with _without_compiler_cache():
+        with variable("CCACHE_DISABLE", "1"):
             rows = [typed.row("demo, the first command", 1, "demo")]
         rows += [typed.row(f"`{' '.join(words)}`", options.rounds, *words) for words in _QUICK]
         for number in _WATCHED:

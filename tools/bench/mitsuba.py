@@ -14,13 +14,12 @@ from rich.console import Console
 from rich.markup import escape
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.process import Outcome, run
-from raysteps.common.text import shorten
+from raysteps.common.process import run
 from raysteps.common.vectors import Vector
 from raysteps.course.project import Project
 from raysteps.images.noise import read_estimates
 from tools.bench.model import MitsubaNumbers, MitsubaRow, PathTimes, Spread, keep
-from tools.bench.programs import Programs, checked, children_seconds, pinned, portable
+from tools.bench.programs import Programs, checked, portable, run_pinned
 from tools.bench.tables import median, quartiles, terminal_table
 
 Light = npt.NDArray[np.float64]
@@ -269,7 +268,6 @@ def read_pfm(data: bytes) -> Light:
 _SAMPLERS = ("multijitter", "independent")
 _TREES = ("bvh", "wide")
 
-_SECONDS = 3600
 _STEP = "15"  # Mitsuba's integrator weighs lamps that are met and sampled, too
 _MAX_DIFFERENCE = 0.01  # of the mean light
 _BLOCK = 16  # pixels
@@ -296,16 +294,8 @@ class _Shot:
 Runner = Callable[[int], _Shot]  # of a picture with that seed
 
 
-def _run(words: list[str | Path], folder: Path) -> Outcome:
-    with pinned():
-        outcome = run(words, seconds=_SECONDS, cwd=folder)
-    if outcome.timed_out or outcome.code != 0:
-        raise GraderFault(f"{words[0]} failed: {shorten(outcome.stderr, 2000)}")
-    return outcome
-
-
 def _mitsuba(python: Path, folder: Path, sampler: str, samples: int, seed: int) -> _Shot:
-    outcome = _run([python, "-c", _JOB, f"{sampler}.xml", "picture.pfm", str(samples), str(seed)], folder)
+    outcome, _ = run_pinned([python, "-c", _JOB, f"{sampler}.xml", "picture.pfm", str(samples), str(seed)], folder)
     return _Shot(read_pfm((folder / "picture.pfm").read_bytes()), float(outcome.stdout.split()[-1]))
 
 
@@ -314,9 +304,7 @@ def _raytrace(programs: Programs, scene: Path, folder: Path, tree: str, options:
     words: list[str | Path] = [programs.raytrace, scene, "-o", "picture.ppm", "--estimates", "estimates", "--quiet"]
     words += ["--step", _STEP, "--filter", "box", "--threads", "1", "--accel", tree, "--seed", str(seed)]
     words += ["--size", f"{options.size}x{options.size}", "--samples", str(options.samples)]
-    before = children_seconds()
-    _run(words, folder)
-    seconds = children_seconds() - before
+    _, seconds = run_pinned(words, folder)
     return _Shot(read_estimates((folder / "estimates").read_bytes()).mean, seconds)
 
 

@@ -155,9 +155,7 @@ def _boxes_table(rows: list[BoxesRow], size: str) -> Table:
 
 def boxes(project: Project, scenes: list[Path], size: str, console: Console) -> int:
     """Measures, prints one table and writes build/bench/boxes.json."""
-    missing = [str(scene) for scene in scenes if not scene.is_file()]
-    if missing:
-        raise UsageError(f"{missing[0]}: is not there; expected a scene")
+    checked(scenes)
     with console.status("starting") as status:
         program = build_kit(project, progress(console, status)).reference("raytrace")
     every = [generated(project, kind, factor) for kind, factor in _DEFAULTS] + scenes

@@ -23,7 +23,7 @@ from raysteps.play.packages import registry_of
 from raysteps.play.play_page import PlayPage, PlayServer
 from raysteps.toolchain.cmake import release_tree
 from tools.bench.model import FigureRow, PlayNumbers, SaveRow, Spread, keep
-from tools.bench.programs import machine
+from tools.bench.programs import machine, variable
 from tools.bench.tables import median, terminal_table
 
 if TYPE_CHECKING:  # only this command waits for it
@@ -39,17 +39,11 @@ _SUMMED = "() => /tests pass|does not compile/.test(document.getElementById('pla
 @contextmanager
 def _both_parts() -> Iterator[None]:
     """A course that has all steps, whatever that of this kit has."""
-    before = os.environ.get(COURSE_VARIABLE)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as name:
         course = Path(name) / "course.toml"
         course.write_text("parts = [1, 2]\n", encoding="utf-8")
-        os.environ[COURSE_VARIABLE] = str(course)
-        try:
+        with variable(COURSE_VARIABLE, str(course)):
             yield
-        finally:
-            os.environ.pop(COURSE_VARIABLE)
-            if before is not None:
-                os.environ[COURSE_VARIABLE] = before
 
 
 @contextmanager

@@ -14,11 +14,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from raysteps.common.errors import GraderFault, UsageError
-from raysteps.common.process import Outcome, run
-from raysteps.common.text import shorten
 from raysteps.common.vectors import Vector, cross, length, minus, times, unit
 from tools.bench.model import PovrayRow, ProgramTimes, Spread
-from tools.bench.programs import Programs, children_seconds, flat_nff, pinned
+from tools.bench.programs import Programs, flat_nff, run_pinned
 
 # A scene of spheres, cones and triangles, from the NFF that `raysteps-bench nff` writes.
 
@@ -189,7 +187,6 @@ def brightness_difference(a: Picture, b: Picture) -> float:
     return float(np.abs(_blocks(a) - _blocks(b)).mean())
 
 
-_SECONDS = 3600
 _MAX_DIFFERENCE = 0.01
 _MAX_WITH_GLASS = 0.05  # light passes POV-Ray's glass, while the kit's throws a full shadow
 _TRACE_TIME = re.compile(r"Trace Time:.*\(([0-9.]+) seconds\)")
@@ -219,15 +216,6 @@ class TraceTime:
 Runner = Callable[[int], TraceTime]  # of a picture with that many pixels on each side
 
 
-def _run(words: list[str | Path], folder: Path) -> tuple[Outcome, float]:
-    before = children_seconds()
-    with pinned():
-        outcome = run(words, seconds=_SECONDS, cwd=folder)
-    if outcome.timed_out or outcome.code != 0:
-        raise GraderFault(f"{words[0]} failed: {shorten(outcome.stderr, 2000)}")
-    return outcome, children_seconds() - before
-
-
 def trace_seconds(report: str) -> float:
     """What POV-Ray says about itself, to the millisecond."""
     found = _TRACE_TIME.search(report)
@@ -238,14 +226,14 @@ def trace_seconds(report: str) -> float:
 
 def _povray(folder: Path, size: int) -> TraceTime:
     files: list[str | Path] = ["+Iscene.pov", "+Opovray.ppm", f"+W{size}", f"+H{size}"]
-    outcome, processor = _run(["povray", *files, *_OPTIONS], folder)
+    outcome, processor = run_pinned(["povray", *files, *_OPTIONS], folder)
     return TraceTime(trace_seconds(outcome.stderr + outcome.stdout), outcome.seconds, processor)
 
 
 def _raytrace(program: Path, folder: Path, tree: str, depth: int, size: int) -> TraceTime:
     options = ["--size", f"{size}x{size}", "--depth", str(depth), "--threads", "1", "--quiet"]
     words: list[str | Path] = [program, "scene.nff", "-o", f"{tree}.ppm", "--accel", tree, "--stats", f"{tree}.json"]
-    outcome, processor = _run([*words, *options], folder)
+    outcome, processor = run_pinned([*words, *options], folder)
     stats = json.loads((folder / f"{tree}.json").read_text(encoding="utf-8"))
     return TraceTime(float(stats["render_seconds"]), outcome.seconds, processor)
 

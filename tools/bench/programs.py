@@ -15,6 +15,7 @@ from raysteps.common.documents import Malformed, convert
 from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.platform import processor_count
 from raysteps.common.process import Outcome, run
+from raysteps.common.text import shorten
 from raysteps.course.project import Project, generated
 from raysteps.toolchain.cmake import BuildTree, release_tree, what_failed
 from raysteps.toolchain.link import read_description
@@ -196,7 +197,7 @@ def checked(scenes: list[Path]) -> list[Path]:
     return scenes
 
 
-# Processor time of programs that were started and waited for.
+# Programs that are started and waited for, and the time of the processor that they took.
 
 if sys.platform != "win32":
     import resource
@@ -207,3 +208,30 @@ def children_seconds() -> float:
         raise UsageError("this measurement needs Linux or macOS: Windows does not tell what ended programs used")
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
+
+
+_RUN_SECONDS = 3600
+
+
+def run_pinned(words: list[str | Path], folder: Path) -> tuple[Outcome, float]:
+    """A program in that folder, on one processor, with the seconds of the processor that it took. Throws GraderFault
+    where it fails."""
+    before = children_seconds()
+    with pinned():
+        outcome = run(words, seconds=_RUN_SECONDS, cwd=folder)
+    if outcome.timed_out or outcome.code != 0:
+        raise GraderFault(f"{words[0]} failed: {shorten(outcome.stderr, 2000)}")
+    return outcome, children_seconds() - before
+
+
+@contextmanager
+def variable(name: str, value: str) -> Iterator[None]:
+    """Programs started inside have this variable in their environment."""
+    before = os.environ.get(name)
+    os.environ[name] = value
+    try:
+        yield
+    finally:
+        del os.environ[name]
+        if before is not None:
+            os.environ[name] = before

@@ -6,6 +6,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
@@ -48,16 +49,21 @@ _NO_TESTS = 5  # the exit code of pytest when no test in the files has the marks
 _PAIRS = 40
 
 
+def _up_to_date(old: Sequence[str], text: str) -> Report:
+    """`old`: files that are not what a command makes; `text` says which command."""
+    return Report("failed", f"{text}: {', '.join(old)}") if old else Report("passed")
+
+
 def _stubs(project: Project) -> Report:
     names = [path.relative_to(project.root).as_posix() for path in outdated_stubs(project, kit_steps(project))]
-    text = "these stubs differ from what the solutions generate (./raysteps dev stubs makes them anew): "
-    return Report("failed", text + ", ".join(names)) if names else Report("passed")
+    text = "these stubs differ from what the solutions generate (./raysteps dev stubs makes them anew)"
+    return _up_to_date(names, text)
 
 
 def _samples(project: Project) -> Report:
     names = [path.relative_to(project.root).as_posix() for path in outdated_samples(project, kit_steps(project))]
-    text = "these samples differ from what the solutions make (./raysteps dev samples makes them anew): "
-    return Report("failed", text + ", ".join(names)) if names else Report("passed")
+    text = "these samples differ from what the solutions make (./raysteps dev samples makes them anew)"
+    return _up_to_date(names, text)
 
 
 def _truth(project: Project, console: Console, *, pairs: int) -> Report:
@@ -66,15 +72,13 @@ def _truth(project: Project, console: Console, *, pairs: int) -> Report:
 
 
 def _mistakes(project: Project) -> Report:
-    old = out_of_date(project, lambda text: None)
-    text = "these differ from what the catalogue makes (./raysteps dev mistakes makes them anew): "
-    return Report("failed", text + ", ".join(old)) if old else Report("passed")
+    text = "these differ from what the catalogue makes (./raysteps dev mistakes makes them anew)"
+    return _up_to_date(out_of_date(project, lambda text: None), text)
 
 
 def _figures(project: Project) -> Report:
-    old = old_figures(project, lambda text: None)
-    text = "these are not what the kit draws (./raysteps figures makes them anew): "
-    return Report("failed", text + ", ".join(old)) if old else Report("passed")
+    text = "these are not what the kit draws (./raysteps figures makes them anew)"
+    return _up_to_date(old_figures(project, lambda text: None), text)
 
 
 def python_checks(project: Project, inputs: Callable[..., FileFilter]) -> list[Check]:
@@ -111,6 +115,36 @@ def _not_seen(folder: Path, inputs: Mapping[str, FileFilter]) -> dict[str, set[s
     return found
 
 
+@dataclass(frozen=True)
+class _PytestRun:
+    """How one run ended, and what it left: files with tests that failed, and documents that nobody knew of."""
+
+    outcome: process.Outcome
+    wrong: set[str]
+    unknown: dict[str, set[str]]
+
+    @property
+    def ended(self) -> bool:
+        """Whether all tests were run."""
+        code = self.outcome.code
+        return not self.outcome.timed_out and (code in (0, _NO_TESTS) or (code == 1 and bool(self.wrong)))
+
+
+def _pytest(
+    project: Project, files: Sequence[str], marks: Sequence[str], inputs: Mapping[str, FileFilter]
+) -> _PytestRun:
+    """Of these files, none of them being all."""
+    spread = ["-n", str(2 * processor_count())]  # twice as many as processors: tests mostly wait for programs
+    spread += ["--dist", "loadgroup", "--no-loadscope-reorder"]  # groups make something costly once; slow ones first
+    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
+        words: list[str | Path] = [sys.executable, "-P", "-m", "pytest", "-q", "--tb", "short", *spread]
+        words += ["-m", " or ".join(marks), "-o", f"cache_dir={folder}", *files]
+        outcome = process.run(words, seconds=_PYTEST_SECONDS, cwd=project.root / "grader")
+        failed = Path(folder) / "v" / "cache" / "lastfailed"  # the names of tests; pytest writes it where there are any
+        named = json.loads(failed.read_text("utf-8")) if failed.is_file() else ()
+        return _PytestRun(outcome, {name.partition("::")[0] for name in named}, _not_seen(Path(folder), inputs))
+
+
 def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report:
     """The tests with any of these marks, of all files that are not as they were when they passed. All in one run, in
     which no processor waits for the last slow test of the one half before the other begins."""
@@ -121,33 +155,27 @@ def run_pytest(project: Project, stamps: Stamps, marks: Sequence[str]) -> Report
     changed = [place for place in names if not all(stamps.has_passed(name, digests[name]) for name in names[place])]
     if not changed:
         return Report("passed", UNCHANGED)
-    spread = ["-n", str(2 * processor_count())]  # twice as many as processors: tests mostly wait for programs
-    spread += ["--dist", "loadgroup", "--no-loadscope-reorder"]  # groups make something costly once; slow ones first
     files = {place: place.removeprefix("grader/") for place in changed}
-    with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        words: list[str | Path] = [sys.executable, "-P", "-m", "pytest", "-q", "--tb", "short", *spread]
-        words += ["-m", " or ".join(marks), "-o", f"cache_dir={folder}"]
-        words += files.values() if len(changed) < len(inputs) else []
-        outcome = process.run(words, seconds=_PYTEST_SECONDS, cwd=project.root / "grader")
-        failed = Path(folder) / "v" / "cache" / "lastfailed"  # the names of tests; pytest writes it where there are any
-        named = json.loads(failed.read_text("utf-8")) if failed.is_file() else ()
-        wrong = {name.partition("::")[0] for name in named}
-        missed = _not_seen(Path(folder), inputs)
-    ended = not outcome.timed_out and (outcome.code in (0, _NO_TESTS) or (outcome.code == 1 and wrong))
-    right = [place for place, file in files.items() if ended and file not in wrong and place not in missed]
+    ran = _pytest(project, [*files.values()] if len(changed) < len(inputs) else [], marks, inputs)
+    right = [place for place, file in files.items() if ran.ended and file not in ran.wrong and place not in ran.unknown]
     stamps.keep({name: inputs[place] for place in right for name in names[place]}, digests)
-    if ended and not wrong:
-        same = len(inputs) - len(changed)
-        told = re.findall(r"^(\d.*?) in \d.*$", outcome.stdout, re.MULTILINE)[-1:]  # the last line of a run
-        told += [f"{same} of {len(inputs)} files are as before"] if same else []
-        told += [
-            f"{place} will run again, since it reads {shorten(', '.join(sorted(read)), 200)}, "
-            "which its source does not name"
-            for place, read in sorted(missed.items())
-        ]
-        return Report("passed", "; ".join(told))
-    output = (outcome.stdout + outcome.stderr)[-6000:]
-    return Report("failed", f"it ran longer than {_PYTEST_SECONDS} s\n{output}" if outcome.timed_out else output)
+    return _told(ran, len(inputs) - len(changed), len(inputs))
+
+
+def _told(ran: _PytestRun, same: int, files: int) -> Report:
+    """`same` of the files were as before."""
+    outcome = ran.outcome
+    if not ran.ended or ran.wrong:
+        output = (outcome.stdout + outcome.stderr)[-6000:]
+        return Report("failed", f"it ran longer than {_PYTEST_SECONDS} s\n{output}" if outcome.timed_out else output)
+    told = re.findall(r"^(\d.*?) in \d.*$", outcome.stdout, re.MULTILINE)[-1:]  # the last line of a run
+    told += [f"{same} of {files} files are as before"] if same else []
+    told += [
+        f"{place} will run again, since it reads {shorten(', '.join(sorted(read)), 200)}, "
+        "which its source does not name"
+        for place, read in sorted(ran.unknown.items())
+    ]
+    return Report("passed", "; ".join(told))
 
 
 def grade_checks(project: Project, console: Console, inputs: Callable[..., FileFilter], *, full: bool) -> list[Check]:
