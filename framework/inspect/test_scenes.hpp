@@ -4,9 +4,9 @@
 
 #include "core/cone.hpp"
 #include "core/sphere.hpp"
-#include "core/triangle.hpp"
 #include "inspect/inspect_pixel.hpp"
 #include "render/accelerator_registry.hpp"
+#include "testing/balls_on_floor.hpp"
 
 namespace raysteps::testing {
 
@@ -14,20 +14,11 @@ inline const Fill k_matte{{0.8F, 0.7F, 0.2F}, 0.9F, 0.0F, 1.0F, 0.0F, 1.0F};
 inline const Fill k_mirror{{0.5F, 0.5F, 0.9F}, 0.4F, 0.6F, 30.0F, 0.0F, 1.0F};
 inline const Fill k_glass{{1.0F, 1.0F, 1.0F}, 0.1F, 0.1F, 50.0F, 0.8F, 1.5F};
 
-/// A floor, a mirror ball, a glass ball and a cone, with a lamp on either side.
+/// The balls on a floor, and a cone before them.
 inline Scene small_scene() {
-    Scene scene;
-    scene.camera.from = {0.0F, 1.0F, 6.0F};
+    Scene scene = balls_on_floor();
     scene.camera.width = 24;
     scene.camera.height = 18;
-    scene.background = {0.1F, 0.2F, 0.3F};
-    scene.lights = {{{4.0F, 5.0F, 3.0F}, k_white}, {{-4.0F, 3.0F, 2.0F}, Color(0.5F)}};
-    const glm::vec3 back_left{-5.0F, -1.0F, -5.0F};
-    const glm::vec3 front_right{5.0F, -1.0F, 5.0F};
-    scene.add(std::make_unique<Triangle>(back_left, glm::vec3(-5.0F, -1.0F, 5.0F), front_right, k_matte));
-    scene.add(std::make_unique<Triangle>(back_left, front_right, glm::vec3(5.0F, -1.0F, -5.0F), k_matte));
-    scene.add(std::make_unique<Sphere>(glm::vec3(-1.1F, 0.0F, 0.0F), 1.0F, k_mirror));
-    scene.add(std::make_unique<Sphere>(glm::vec3(1.1F, 0.0F, 0.0F), 1.0F, k_glass));
     scene.add(std::make_unique<Cone>(Cone::End{{0.0F, -1.0F, 1.5F}, 0.4F}, Cone::End{{0.0F, 0.0F, 1.5F}, 0.0F},
                                      Cone::Sidedness::both, k_matte));
     return scene;
