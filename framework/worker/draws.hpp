@@ -24,6 +24,21 @@ auto draw_often(TokenReader& words, const Draw& draw) {
     return answers_to(points, draw);
 }
 
+/// What draw(random) gives as often as the question asks for, each time with a stream of its own, and at last with the
+/// first one again.
+template <typename Draw>
+auto draw_with_streams(TokenReader& words, const Draw& draw) {
+    const auto seed = static_cast<std::uint32_t>(words.whole());
+    const auto times = static_cast<std::size_t>(words.count());
+    const auto draw_once = [&](std::size_t number) {
+        RandomStream random(seed, static_cast<std::uint32_t>(number));
+        return draw(random);
+    };
+    auto made = made_in_turn(times, draw_once);
+    made.push_back(draw_once(0));
+    return made;
+}
+
 /// 1 and the sample, or 0 where there is none.
 inline void write_sample(TokenWriter& answer, const std::optional<ScatterSample>& sample) {
     answer.flag(sample.has_value());

@@ -78,19 +78,12 @@ void ask_scatter_metal(TokenReader& words, TokenWriter& answer) {
     }
 }
 
-/// Each time with a stream of its own, and at last with the first one again.
 void ask_scatter_glass(TokenReader& words, TokenWriter& answer) {
     const HitRecord hit = read_rough_hit(words);
-    const auto seed = static_cast<std::uint32_t>(words.whole());
-    const auto times = static_cast<std::size_t>(words.count());
-    const auto draw = [&](std::size_t number) {
-        RandomStream random(seed, static_cast<std::uint32_t>(number));
-        return scatter_glass(hit, random);
-    };
-    for (const auto& sample : made_in_turn(times, draw)) {
+    const auto draw = [&](RandomStream& random) { return scatter_glass(hit, random); };
+    for (const auto& sample : draw_with_streams(words, draw)) {
         write_sample(answer, sample);
     }
-    write_sample(answer, draw(0));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/random_stream.hpp"
 #include "core/threads.hpp"
 #include "steps/10-sampling/sampling.hpp"
+#include "worker/draws.hpp"
 #include "worker/functions.hpp"
 #include "worker/protocol.hpp"
 
@@ -24,18 +25,10 @@ int at_least(int least, int number) {
 
 Filter read_filter(TokenReader& words) { return words.one_of<Filter>("filter", Filter::mitchell); }
 
-// As often as asked, each time with a stream of its own, and at last with the first one again.
 void ask_stratified_samples(TokenReader& words, TokenWriter& answer) {
     const int side = words.whole();
-    const auto seed = static_cast<std::uint32_t>(words.whole());
-    const auto draw = [&](std::size_t number) {
-        RandomStream random(seed, static_cast<std::uint32_t>(number));
-        return stratified_samples(side, random);
-    };
-    std::vector<std::vector<glm::vec2>> found =
-        made_in_turn(static_cast<std::size_t>(at_least(1, words.count())), draw);
-    found.push_back(draw(0));
-    for (const std::vector<glm::vec2>& points : found) {
+    const auto draw = [&](RandomStream& random) { return stratified_samples(side, random); };
+    for (const std::vector<glm::vec2>& points : draw_with_streams(words, draw)) {
         answer.whole(static_cast<long long>(points.size()));
         for (const glm::vec2& point : points) {
             write_point(answer, point);
