@@ -7,6 +7,10 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+from typing import Any
 
 from raysteps.bootstrap.venv import CannotSetUp, say
 
@@ -191,3 +195,37 @@ def install_optional() -> None:
         say(f"without bubblewrap, other people's work is graded in a weaker sandbox: {line}")
     if not is_installed(HIGHWAY) and not install([HIGHWAY]):
         say("without Highway there is no --accel wide: sudo apt-get install -y libhwy-dev")
+
+
+# Words are read before the packages are there, whose names the commands import.
+
+
+class _Absent(type):
+    """Of a class that stands in for whatever a package has: others can be made of it, called and indexed."""
+
+    def __getattr__(cls, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return cls
+
+    def __call__(cls, *words: Any, **named: Any) -> Any:
+        return cls
+
+    def __or__(cls, other: Any) -> Any:
+        return cls
+
+    __ror__ = __getitem__ = __or__
+
+    def __new__(mcs, name: str, bases: Any, members: Any, **_: Any) -> Any:
+        return super().__new__(mcs, name, bases, members)
+
+
+class AbsentPackages(MetaPathFinder, Loader):
+    """Comes last: packages that are not installed are there for who imports them, and do nothing."""
+
+    def find_spec(self, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
+        is_absent = name.partition(".")[0] not in {"raysteps", "tools", *sys.stdlib_module_names}
+        return ModuleSpec(name, self, is_package=True) if is_absent else None
+
+    def exec_module(self, module: ModuleType) -> None:
+        module.__dict__["__getattr__"] = _Absent(module.__name__, (), {}).__getattr__

@@ -1,9 +1,10 @@
 """What `raysteps` does first."""
 
 import sys
+from contextlib import suppress
 from pathlib import Path
 
-from raysteps.bootstrap.venv import CannotSetUp, Venv, say, set_for
+from raysteps.bootstrap.venv import UNDERSTOOD, CannotSetUp, Venv, say, set_for
 
 _USAGE = 2
 
@@ -17,15 +18,24 @@ def _set_up(venv: Venv, wanted: str) -> None:
     venv.make(wanted)
 
 
-def _complete(venv: Venv, wanted: str, words: list[str]) -> bool:
-    """Brings what another command has not brought meanwhile; not for words that the command does not take."""
+def read() -> None:
+    """Ends this process with what there is to say of its words: see `Venv.answer`."""
+    from raysteps.bootstrap.requirements import AbsentPackages
+
+    sys.meta_path.append(AbsentPackages())
+    with suppress(Exception):  # then it is said when the packages are there
+        from raysteps.cli.app import read_words
+
+        read_words()
+    sys.exit(UNDERSTOOD)
+
+
+def _complete(venv: Venv, wanted: str, words: list[str]) -> None:
+    """Brings what another command has not brought meanwhile."""
     if not venv.is_made():
         _set_up(venv, wanted)
     elif not venv.has(wanted):
-        if not venv.understands(words):
-            return False
         venv.add(wanted, " ".join(words[:2] if words[0] == "dev" else words[:1]))
-    return True
 
 
 def main(root: str, words: list[str]) -> int:
@@ -33,9 +43,11 @@ def main(root: str, words: list[str]) -> int:
     venv, wanted = Venv(Path(root)), set_for(words)
     try:
         if not (venv.is_made() and venv.has(wanted)):
+            code = venv.answer(words)
+            if code is not None:
+                return code
             with venv.alone():
-                if not _complete(venv, wanted, words):
-                    return _USAGE
+                _complete(venv, wanted, words)
         elif venv.is_this():
             sys.argv[1:] = words
             from raysteps.cli.app import run_process

@@ -16,6 +16,7 @@ def say(text: str) -> None:
 _TAKES = ("about half a minute", "some minutes, 600 MB")  # without the makers' set, and with it
 
 
+UNDERSTOOD = 100  # the exit code of the process that reads the words, where there is more to do than to answer them
 _EVERY = 20  # seconds
 
 
@@ -41,27 +42,16 @@ class CannotSetUp(Exception):
 INSTRUCTOR = "instructor"
 PLAY = "play"  # also the command that needs it
 MAKER = "dev"  # the others, too
-_HELP = {"-h", "--help"}
-OF_PLAY = {"--port", "--no-open", "--no-browser", "--registry", "--out"}  # any other option is refused
 _OF_MAKERS = {"docs": (), "test": (), "dev": ("format", "lint")}  # commands, and what of them where it is not all
 
 
 def set_for(words: Sequence[str]) -> str:
-    """What a command needs beside the usual set of its kit: nothing for most, nor to say how it is used."""
+    """What a command needs beside the usual set of its kit: nothing for most."""
     command, *rest = words or [""]
-    if _HELP & {*rest}:
-        return ""
     if command == PLAY:
-        options = [word.partition("=")[0] for word in rest if word.startswith("--")]
-        is_unknown = any(not any(known.startswith(option) for known in OF_PLAY) for option in options)
-        is_refused = is_unknown or (rest and not rest[0].startswith("-"))  # `play --foo`, `play 03`
-        return "" if is_refused else PLAY
+        return PLAY
     some = _OF_MAKERS.get(command)
-    if some is None:
-        return ""
-    first = rest[0] if rest else ""
-    needs_them = first in some if some else not first or first.startswith("-")  # `test 01` is refused
-    return MAKER if needs_them else ""
+    return "" if some is None or (some and rest[:1] not in [[one] for one in some]) else MAKER
 
 
 class Venv:
@@ -141,12 +131,16 @@ class Venv:
                     fcntl.flock(file, fcntl.LOCK_EX)
             yield
 
-    def understands(self, words: Sequence[str]) -> bool:
-        """Whether the command takes these words; if not, it has said why."""
+    def answer(self, words: Sequence[str]) -> int | None:
+        """The exit code where all is said before anything is installed: help, or what is wrong with the words."""
         import subprocess  # takes long to load, and is rarely needed
 
-        read = "import sys; from raysteps.cli.app import parse; parse(sys.argv[1:])"
-        return subprocess.run([self.python, "-X", "utf8", "-P", "-c", read, *words], check=False).returncode == 0
+        python = self.python if self.is_made() else sys.executable
+        read = "from sys import argv, path; path.insert(0, argv.pop(1))\n"
+        read += "from raysteps.bootstrap.start import read; read()"
+        sources = str(Path(__file__).parents[2])
+        code = subprocess.run([python, "-X", "utf8", "-P", "-c", read, sources, *words], check=False).returncode
+        return None if code == UNDERSTOOD else code
 
     def make(self, wanted: str = "") -> None:
         """Anew, with the usual set, the one that is wanted and those that were there before."""

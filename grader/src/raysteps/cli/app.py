@@ -279,25 +279,37 @@ def as_options(words: Sequence[str]) -> list[str]:
     return list(words)
 
 
-def parse(words: Sequence[str]) -> argparse.Namespace:
-    """The arguments of a command; what is wrong with them is said, and ends the process."""
-    return new_parser(here(), words[0]).parse_args(words)
+def _command(project: Project, words: Sequence[str]) -> Command | None:
+    """The one that is named. Where none is, says so, or prints the help, and may end the process."""
+    command = next((one for one in _commands(project) if words[:1] == [one.name]), None)
+    if command is None:
+        parser = new_parser(project, "")
+        if words and not words[0].startswith("-"):
+            parser.error(f"{words[0]}: {_no_such_command(project, words[0])}")
+        if words:
+            parser.parse_args(words)  # which says what is wrong with them, or prints the help
+        parser.print_help(sys.stderr)
+    return command
+
+
+def read_words() -> None:
+    """Says what is wrong with those of this process, or prints the help, and ends it; nothing where they are right."""
+    project, words = here(), as_options(sys.argv[1:])
+    command = _command(project, words)
+    if command is None:
+        sys.exit(UsageError.exit_code)
+    if not hasattr(_module(project, command), "run_words"):
+        new_parser(project, command.name).parse_args(words)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command and returns its exit code; without words it prints the help."""
     project = here()
     words = as_options(sys.argv[1:] if argv is None else argv)
-    command = next((one for one in _commands(project) if words[:1] == [one.name]), None)
     try:
+        command = _command(project, words)
         if command is None:
-            parser = new_parser(project, "")
-            if words and not words[0].startswith("-"):
-                parser.error(f"{words[0]}: {_no_such_command(project, words[0])}")
-            if words:
-                parser.parse_args(words)  # which says what is wrong with them, or prints the help
-            parser.print_help(sys.stderr)
-            return 2
+            return UsageError.exit_code
         module = _module(project, command)
         if hasattr(module, "run_words"):  # what follows is for a program, and not read here
             code: int = module.run_words(project, words[1:])
