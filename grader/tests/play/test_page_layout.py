@@ -113,11 +113,13 @@ def test_what_the_compiler_says_is_in_sight_on_a_small_screen(
     watched.allowed.append(server.address)
     page = watched.open(server.address, width=width, height=height)
     status_says(page, r"0 of 12 tests pass", timeout=STARTED)
+    expect(page.locator("#play-problems")).to_have_attribute("tabindex", "-1")  # nothing stands there to scroll
     save(page, "int unused;\n" * 30 + solved["01-camera-rays"].replace(POINT, "return ray.orgin;"))
     status_says(page, r"It does not compile\.")
     expect(page.get_by_role("button", name="Run")).to_be_in_viewport(ratio=1)
     assert_no_sideways_scrolling(page)
     head, problems, line = page.locator(".page-head"), page.locator("#play-problems"), page.locator(".cm-activeLine")
+    expect(problems).to_have_attribute("tabindex", "0")
     for key in ("ControlOrMeta+Home", "ControlOrMeta+End"):
         page.keyboard.press(key)
         expect(problems.get_by_role("button").first).to_be_in_viewport(ratio=1)

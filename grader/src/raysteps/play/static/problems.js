@@ -53,5 +53,6 @@ export function tellProblems(step, built, editor) {
       room.append(make("pre", { tabindex: 0 }, text.trim()));
     }
   }
+  room.tabIndex = room.hasChildNodes() ? 0 : -1; // it scrolls; Tab finds nothing where nothing is said
   editor.mark(mine);
 }
