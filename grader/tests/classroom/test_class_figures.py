@@ -4,6 +4,7 @@ import io
 import json
 import shutil
 import sqlite3
+import time
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from rich.console import Console
 from raysteps.classroom.class_document import class_document
 from raysteps.classroom.class_files import class_source, remake_class_page
 from raysteps.classroom.database import ClassDatabase, open_readonly
-from raysteps.classroom.summary import print_summary
+from raysteps.classroom.summary import ProgressMeter, print_summary
 from raysteps.common.documents import convert, plain
 from raysteps.common.errors import UsageError
 from raysteps.report.class_overview import (
@@ -287,3 +288,15 @@ def _graded_once(folder: Path) -> Path:
     write_entry(folder / "in", "ann", "// points 7\n")
     assert grade_class(folder / "in", "--out", folder / "grades") == 0
     return folder / "grades"
+
+
+def test_the_time_left_is_said_once_it_was_measured(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Two at once take 10 s each, after 500 s in which the kit and its known mistakes are made."""
+    meter = ProgressMeter(Console(), 7, 2)
+    for clock, name in ((510.0, "ann"), (510.5, "bob"), (520.0, "cy"), (520.5, "dan"), (530.0, "eve"), (530.5, "flo")):
+        monkeypatch.setattr(time, "monotonic", lambda clock=clock: clock)
+        meter.count(name, "0 of 100 points")
+    said = [line.partition("points")[2] for line in capsys.readouterr().err.splitlines()]
+    assert said == ["", "", "; about 20 s left", "; about 10 s left", "; about 10 s left", "; about 4 s left"]

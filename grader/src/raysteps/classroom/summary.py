@@ -28,14 +28,16 @@ def _span(seconds: float) -> str:
 
 
 class ProgressMeter:
-    """Counts submissions. What was graded before takes no time and says nothing about the time left."""
+    """Counts submissions, so many of them `at_once`. What was graded before takes no time and says nothing about the
+    time left, nor does what is made once before the first: kit, known mistakes."""
 
-    def __init__(self, console: Console, total: int) -> None:
+    def __init__(self, console: Console, total: int, at_once: int) -> None:
         self._console = console
         self._total = total
+        self._at_once = at_once
         self._done = 0
         self._graded = 0
-        self._start = time.monotonic()
+        self._first = 0.0  # when that one was graded
         self._bar: Progress | None = None
         if console.is_terminal:
             columns = (
@@ -66,10 +68,11 @@ class ProgressMeter:
             print(f"raysteps: {text}", file=sys.stderr, flush=True)
 
     def _left(self) -> str:
+        """Nothing until one was graded that began after another's end: those that begin at once end at once."""
         left = self._total - self._done
-        if not self._graded or not left:
+        if self._graded <= self._at_once or not left:
             return ""
-        return f"about {_span((time.monotonic() - self._start) / self._graded * left)} left"
+        return f"about {_span((time.monotonic() - self._first) / (self._graded - 1) * left)} left"
 
     def skip(self) -> None:
         """One that need not be graded."""
@@ -81,6 +84,7 @@ class ProgressMeter:
         """One that was graded."""
         self._done += 1
         self._graded += 1
+        self._first = self._first or time.monotonic()
         left = self._left()
         if self._bar is not None:
             self._bar.update(self._task, completed=self._done, description=escape(name), left=left)

@@ -251,7 +251,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console, *, gr
         return _merge(console, arguments.merge, arguments.out)
     plan = make_plan(project, read_options(arguments, grader, read_course(project)))
     with class_lock(plan.options.out):
-        meter = ProgressMeter(console, len(plan.mine()))
+        meter = ProgressMeter(console, len(plan.mine()), plan.options.jobs)
         for words in plan.given.said:
             meter.say(words)
         try:

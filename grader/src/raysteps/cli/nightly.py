@@ -166,7 +166,7 @@ class _Night:
             run = database.begin_run(
                 plan.facts(grader.fingerprint), registered, plan.registrations(), nightly_round.left_out
             )
-            meter = ProgressMeter(self.console, len(due))
+            meter = ProgressMeter(self.console, len(due), self.options.jobs)
             session = Session(
                 plan=plan,
                 kit=grader.fingerprint,
