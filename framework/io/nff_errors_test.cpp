@@ -24,7 +24,9 @@ std::string error_of(const std::string& text) {
 
 TEST_CASE("an entity that NFF does not know", "[nff][errors]") {
     CHECK(error_of(k_view + "  x 1 2\n") == "bad.nff:6:3: expected an entity (v, b, l, f, s, c, p or pp), found `x`");
-    CHECK(error_of("b 0 0 0 0\n") == "bad.nff:1:9: expected an entity (v, b, l, f, s, c, p or pp), found `0`");
+    CHECK(error_of("b 0 0 0 0\n") ==
+          "bad.nff:1:9: expected an entity (v, b, l, f, s, c, p or pp), found `0`, a number that belongs to no entity");
+    CHECK(error_of(k_start + "p 3 0 0 0 1 0 0 1 1 0 0 1 0").ends_with(", a number that belongs to no entity"));
 }
 
 TEST_CASE("a viewpoint that is missing, incomplete or given twice", "[nff][errors]") {
@@ -42,7 +44,9 @@ TEST_CASE("a viewpoint that shows nothing", "[nff][errors]") {
           "bad.nff:3:1: expected `at` apart from `from`, found the same point");
     CHECK(error_of("v\nfrom 1 2 3\nat 0 0 0\nup 0 0 0\nangle 45\n") ==
           "bad.nff:4:1: expected `up` with a length above 0, found a zero vector");
-    CHECK(error_of("v\nfrom 1 2 3\nat 0 0 0\nup 0 0 1e-30\nangle 45\n").ends_with(", found one too short for floats"));
+    for (const std::string up : {"0 0 1e-30", "0 0 1e-50"}) {
+        CHECK(error_of("v from 1 2 3 at 0 0 0 up " + up + " angle 45").ends_with(", found one too short for floats"));
+    }
     CHECK(error_of("v\nfrom 0 0 0\nat 0 0 1e-30\nup 0 1 0\nangle 45\n").ends_with(", found one too near for floats"));
     CHECK(error_of("v\nfrom 0 0 3\nat 0 0 0\nup 0 0 -7\nangle 45\n") ==
           "bad.nff:4:1: expected `up` at an angle to the view, found a parallel vector");
@@ -86,6 +90,7 @@ TEST_CASE("surfaces that are none", "[nff][errors]") {
           std::string::npos);
     CHECK(error_of(k_start + "pp 3\n0 0 0 0 0 0") ==
           "bad.nff:8:7: expected a vertex normal with a length above 0, found a zero vector");
+    CHECK(error_of(k_start + "pp 3\n0 0 0 0 0 1e-50").ends_with(", found one too short for floats"));
 }
 
 TEST_CASE("absurd counts and files cut short", "[nff][errors]") {

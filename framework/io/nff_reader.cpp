@@ -20,6 +20,8 @@ namespace {
 // The sine of the smallest angle between `up` and the view that float arithmetic can still make a frame of.
 constexpr double k_smallest_sine = 1e-5;
 
+constexpr std::string_view k_entity = "an entity (v, b, l, f, s, c, p or pp)";
+
 // A field of the block, and where it was found; an empty token when it was not.
 struct Field {
     std::string_view name;
@@ -63,7 +65,9 @@ private:
         } else if (name == "at") {
             camera_.at = fields_.point("`at`");
         } else if (name == "up") {
-            camera_.up = fields_.point("`up`");
+            FieldReader fields(scanner_);
+            camera_.up = fields.point("`up`");
+            is_up_zero_ = camera_.up == glm::vec3(0.0F) && !fields.has_vanished();
         } else if (name == "angle") {
             read_angle();
         } else if (name == "hither") {
@@ -101,7 +105,7 @@ private:
         }
         if (glm::dot(camera_.up, camera_.up) < std::numeric_limits<float>::min()) {
             scanner_.fail(known("up")->seen, "`up` with a length above 0",
-                          camera_.up == glm::vec3(0.0F) ? "a zero vector" : "one too short for floats");
+                          is_up_zero_ ? "a zero vector" : "one too short for floats");
         }
         const glm::dvec3 side = glm::cross(glm::normalize(glm::dvec3(view)), glm::normalize(glm::dvec3(camera_.up)));
         const double across = glm::length(side) * glm::length(glm::dvec3(camera_.up));  // what step 01 makes a unit of
@@ -113,6 +117,7 @@ private:
     TokenScanner& scanner_;
     FieldReader fields_;
     Camera camera_;
+    bool is_up_zero_ = false;  // as it was typed
     std::array<Field, 6> all_{{{"from", true, {}},
                                {"at", true, {}},
                                {"up", true, {}},
@@ -156,8 +161,10 @@ private:
             read_polygon(scanner_, fill(token), scene_);
         } else if (token.text == "pp") {
             read_patch(scanner_, fill(token), scene_);
+        } else if (looks_like_number(token.text)) {
+            scanner_.fail(token, k_entity, quoted(token.text) + ", a number that belongs to no entity");
         } else {
-            scanner_.fail(token, "an entity (v, b, l, f, s, c, p or pp)");
+            scanner_.fail(token, k_entity);
         }
     }
 

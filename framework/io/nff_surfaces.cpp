@@ -27,10 +27,12 @@ constexpr int k_max_corners = 1'000'000;
 // In double: the squares of a short but valid normal vanish in float.
 glm::vec3 read_normal(TokenScanner& scanner) {
     const Token token = scanner.peek();
-    const glm::dvec3 normal(FieldReader(scanner).point("the vertex normal"));
+    FieldReader fields(scanner);
+    const glm::dvec3 normal(fields.point("the vertex normal"));
     const double length = glm::length(normal);
     if (!(length > 0.0)) {
-        scanner.fail(token, "a vertex normal with a length above 0", "a zero vector");
+        scanner.fail(token, "a vertex normal with a length above 0",
+                     fields.has_vanished() ? "one too short for floats" : "a zero vector");
     }
     // A unit vector in float is a little off 1; to divide it once more would change it at each writing and reading.
     constexpr double k_rounding = 1e-6;

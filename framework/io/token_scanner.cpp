@@ -193,7 +193,9 @@ float FieldReader::limited(std::string_view part, std::string_view what, float l
     if (!(*number >= lowest && *number <= highest)) {
         scanner_.fail(token, full_name(part, what) + ", " + range_text(lowest, highest));
     }
-    return static_cast<float>(*number);
+    const auto value = static_cast<float>(*number);
+    has_vanished_ = has_vanished_ || (value == 0.0F && *number != 0.0);
+    return value;
 }
 
 }  // namespace raysteps

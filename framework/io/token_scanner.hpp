@@ -90,10 +90,14 @@ public:
     /// A whole number, lowest <= number <= highest.
     [[nodiscard]] int whole(std::string_view what, int lowest, int highest);
 
+    /// Whether a number that was read is not 0, but as a float it is.
+    [[nodiscard]] bool has_vanished() const { return has_vanished_; }
+
 private:
     float limited(std::string_view part, std::string_view what, float lowest, float highest);
 
     TokenScanner& scanner_;
+    bool has_vanished_ = false;
 };
 
 }  // namespace raysteps
