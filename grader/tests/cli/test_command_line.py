@@ -16,7 +16,7 @@ from raysteps.cli.app import EXAMPLES, exit_code_of, main, new_parser
 from raysteps.common.errors import UsageError
 from raysteps.common.platform import own_command
 from raysteps.course.project import Project
-from raysteps.submission.load import refuse_results_in
+from raysteps.submission.load import like, refuse_results_in
 
 pytestmark = pytest.mark.portable
 
@@ -265,7 +265,31 @@ def test_one_submission_is_no_class(capsys: pytest.CaptureFixture[str], tmp_path
     assert f"{ann}: is one submission. Grade it with `./raysteps grade {ann}`" in capsys.readouterr().err
     assert main(["grade-class", str(tmp_path / "an"), "--out", str(tmp_path / "out")]) == 2
     assert "one entry per submission; did you mean ann?" in capsys.readouterr().err
+    assert like(ann) == ""  # what cannot be read is not meant by its own name
     assert not (tmp_path / "out").exists()
+
+
+def test_a_path_that_looks_like_an_option(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for words in (["grade", "-ann"], ["grade", "ann", "--out", "-ann"]):
+        assert "./-ann" not in _refused(words, capsys)
+        (tmp_path / "-ann").mkdir()
+        assert _refused(words, capsys).endswith("a path that begins with '-' is typed like ./-ann\n")
+        (tmp_path / "-ann").rmdir()
+
+
+def _refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    with pytest.raises(SystemExit, match="2"):
+        main(words)
+    return capsys.readouterr().err
+
+
+def test_a_file_is_no_class(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    (tmp_path / "a.txt").touch()
+    assert main(["similar", str(tmp_path / "a.txt"), "--out", str(tmp_path / "s.html")]) == 2
+    assert "a.txt: it is no folder; expected a folder with one entry per submission\n" in capsys.readouterr().err
 
 
 def test_the_beginning_of_an_option_is_known(

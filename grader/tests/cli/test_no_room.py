@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from raysteps.cli.app import exit_code_of
-from raysteps.common.files import write_bytes
+from raysteps.common.errors import UsageError, reason_or_fault
+from raysteps.common.files import write_bytes, write_out
 
 _FULL = Path("/dev/full")
 
@@ -87,3 +88,15 @@ def test_a_full_disk_leaves_the_old_file_and_no_half(tmp_path: Path, monkeypatch
     with pytest.raises(OSError, match="No space"):
         write_bytes(tmp_path / "results.json", b"new and longer")
     assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"old"]
+
+
+@pytest.mark.parametrize("place", ["a.txt/x.zip", "a.txt/b/x.zip"])
+def test_a_file_on_the_way_is_named(tmp_path: Path, place: str) -> None:
+    (tmp_path / "a.txt").touch()
+    with pytest.raises(UsageError, match="cannot be written: a part of the path is a file, not a folder"):
+        write_out(tmp_path / place, b"")
+
+
+def test_what_a_page_was_in_want_of_is_told_in_words() -> None:
+    assert reason_or_fault(OSError(errno.ENOSPC, "No space left on device")) == "the disk is full"
+    assert reason_or_fault(KeyError("steps")) == "KeyError('steps')"

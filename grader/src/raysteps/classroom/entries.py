@@ -100,7 +100,8 @@ def list_entries(folder: Path, leave_out: list[Path]) -> Listing:
     try:
         paths = sorted(folder.iterdir(), key=lambda path: os.fsencode(path.name))
     except OSError as error:
-        raise UsageError(f"{folder}: expected a folder with one entry per submission: {reason(error)}") from error
+        found = "it is no folder" if folder.is_file() else reason(error)
+        raise UsageError(f"{folder}: {found}; expected a folder with one entry per submission") from error
     entries: list[ClassEntry] = []
     ignored: list[str] = []
     known: set[str] = set()

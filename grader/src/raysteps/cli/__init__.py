@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from itertools import takewhile
+from pathlib import Path
 from typing import Any, NoReturn
 
 from raysteps.common.platform import kit_command, own_command
@@ -88,6 +89,8 @@ class Parser(argparse.ArgumentParser):
             words = words[:1]  # what follows belongs to a command
         options = takewhile(lambda word: word != "--", words)  # what comes after it is none
         self._refuse_unknown(word for word in options if re.fullmatch("--[^ ]+", word))
+        if self._subparsers is None:
+            self._refuse_paths(takewhile(lambda word: word != "--", words))
         known, left = super().parse_known_args(args, namespace)
         self._refuse_unknown(word for word in left if word.startswith("-"))
         if left:
@@ -110,6 +113,12 @@ class Parser(argparse.ArgumentParser):
                 if option in _OF_THE_REFERENCE and self.get_default(STUDENTS_KIT):
                     self.error(f"{option}: a students' kit has no reference; pictures made with it lie in reference/")
                 self.error(f"{option}: there is no such option{did_you_mean(option, names)}")
+
+    def _refuse_paths(self, words: Iterable[str]) -> None:
+        """Of what is there and begins as an option does."""
+        for word in words:
+            if re.match("-[^-]", word) and word[:2] not in self._option_string_actions and Path(word).exists():
+                self.error(f"{word}: this would be an option; a path that begins with '-' is typed like ./{word}")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:

@@ -102,6 +102,11 @@ def reason(error: Exception) -> str:
     return _no_text(error) if isinstance(error, UnicodeDecodeError) else str(error)
 
 
+def reason_or_fault(error: Exception) -> str:
+    """The same, and of what is no trouble with files, what a maintainer needs."""
+    return reason(error) if isinstance(error, OSError) else repr(error)
+
+
 def reason_and_place(error: Exception) -> str:
     """The same behind the path, for who does not know it."""
     where = f"{error.filename}: " if isinstance(error, OSError) and error.filename else ""

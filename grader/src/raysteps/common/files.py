@@ -1,5 +1,6 @@
 """Writes files so that nobody ever sees half of one, and whole folders in the place of older ones."""
 
+import errno
 import hashlib
 import json
 import os
@@ -112,7 +113,10 @@ def write_bytes(path: Path, data: bytes, *, mode: int = 0o644, ending: str = "")
     """Writes to a temporary name in the same folder, with that ending, then renames."""
     import tempfile
 
-    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(path)) from error
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=ending, dir=path.parent)
     temporary = Path(name)
     try:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
+from raysteps.common.errors import reason_or_fault
 from raysteps.common.files import write_bytes
 from raysteps.common.text import number, plain_letters, printable, searchable, signed, tenths
 from raysteps.report.class_overview import (
@@ -248,4 +249,4 @@ def try_class_report(document: ClassResults, folder: Path, say: Callable[[str], 
     try:
         write_class_report(document, folder)
     except Exception as error:  # whatever it is, the tables are written
-        say(f"no {FILE}: {error!r}")
+        say(f"no {FILE}: {reason_or_fault(error)}")

@@ -7,6 +7,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from raysteps.common.errors import reason_or_fault
 from raysteps.common.files import write_if_changed
 from raysteps.common.text import apportion, clean, count, mean, number, size, tenths
 from raysteps.course.manifest import Step
@@ -630,5 +631,5 @@ def try_student_page(
     try:
         return write_student_page(read_results(folder / "results.json"), folder, steps, progress)
     except Exception as error:  # a page is not worth a grade
-        say(f"no {REPORT}: {error!r}")
+        say(f"no {REPORT}: {reason_or_fault(error)}")
         return None

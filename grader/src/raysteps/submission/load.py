@@ -278,7 +278,7 @@ def _reader(folder: Path) -> FolderReader | PlainFolderReader:
 def like(path: Path) -> str:
     """Words that name what there is instead."""
     try:
-        names = [child.name for child in path.parent.iterdir()]
+        names = [child.name for child in path.parent.iterdir() if child.name != path.name]
     except FileNotFoundError:
         return f"; there is no folder {path.parent} either"
     except OSError:  # what may not be listed, or is no folder
