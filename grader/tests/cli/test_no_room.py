@@ -11,7 +11,7 @@ import pytest
 
 from raysteps.cli.app import exit_code_of
 from raysteps.common.errors import UsageError, reason_or_fault
-from raysteps.common.files import write_bytes, write_out
+from raysteps.common.files import refuse_to_write, write_bytes, write_out
 
 _FULL = Path("/dev/full")
 
@@ -100,3 +100,12 @@ def test_a_file_on_the_way_is_named(tmp_path: Path, place: str) -> None:
 def test_what_a_page_was_in_want_of_is_told_in_words() -> None:
     assert reason_or_fault(OSError(errno.ENOSPC, "No space left on device")) == "the disk is full"
     assert reason_or_fault(KeyError("steps")) == "KeyError('steps')"
+
+
+def test_a_closed_folder_is_told_before_anything_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    refuse_to_write(tmp_path / "a.png")
+    (tmp_path / "old.png").touch()
+    monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)  # to root every folder is open
+    refuse_to_write(tmp_path / "old.png")  # as /dev/stdout, which can be written where it lies or not
+    with pytest.raises(UsageError, match=f"no permission to write in the folder {tmp_path.name}; write elsewhere"):
+        refuse_to_write(tmp_path / "a.png")

@@ -171,6 +171,9 @@ def refuse_to_write(path: Path) -> None:
         raise UsageError(f"{path}: is a folder; expected the name of a file to write")
     if not path.parent.is_dir():
         raise UsageError(f"{path}: there is no folder {path.parent}; make it first, or write elsewhere")
+    if not path.exists() and not os.access(path.parent, os.W_OK | os.X_OK):
+        closed = PermissionError(errno.EACCES, "", str(path))
+        raise UsageError(f"{path}: cannot be written: {reason(closed)}; write elsewhere")
 
 
 def write_out(path: Path, data: bytes) -> None:
