@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 from shutil import rmtree
+from types import ModuleType
 
 import pytest
 from course_fakes import written_course
@@ -61,6 +62,17 @@ def test_a_picture_that_never_ends_is_told_while_it_is_drawn(
 def test_odd_columns_do_not_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "abc")
     assert main(["grade", "/no/such/submission"]) == 2
+
+
+@pytest.mark.parametrize("command", [render, view])
+def test_help_needs_no_steps_that_build(command: ModuleType, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[Path] = []
+    monkeypatch.setattr(render, "build_reference", lambda tree, target: Path(target))
+    monkeypatch.setattr(render, "build_mine", lambda *_: pytest.fail("a step may not build"))
+    monkeypatch.setattr(view, "check_glfw", lambda _: None)
+    monkeypatch.setattr(command, "run_raytrace", lambda program, args: ran.append(program))
+    command.run_words(project, ["--help"])
+    assert ran == [Path("raytrace-reference" if command is render else "view-reference")]
 
 
 @pytest.mark.parametrize("name", ["picture.jpg", "picture", "mine.v2", ".png"])

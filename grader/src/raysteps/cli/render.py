@@ -204,6 +204,11 @@ _FLAGS = {"--quiet", "--spd", "--strip"}  # without a value behind them
 _NOTHING_TO_DRAW = {"-h", "--help", "--list-accel"}
 
 
+def asks_for_help(project: Project, args: Sequence[str]) -> bool:
+    """Of a kit with a reference, whose program gives it while a student's step does not build."""
+    return project.has_reference and not {"-h", "--help"}.isdisjoint(args)
+
+
 def place_of_scene(args: Sequence[str]) -> int | None:
     """Where the first word is that is no option and no value of one."""
     if not _NOTHING_TO_DRAW.isdisjoint(args):
@@ -302,6 +307,8 @@ def _draw(run: Callable[[Path, list[str]], int], program: Path, args: list[str],
 def run_words(project: Project, args: list[str]) -> int:
     """Same arguments as raytrace, and --impl."""
     impl, args = take_impl(args)
+    if asks_for_help(project, args):
+        return run_raytrace(build_program(release_tree(project), "raytrace", "reference"), args)
     picture = last_value(args, "-o")
     if picture is not None and not _says_its_kind(Path(picture)):
         raise UsageError(f"{picture}: pictures are written as .png or .ppm; expected a name such as mine.png")

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from raysteps.cli.render import build_program, refuse_place, run_raytrace, take_impl, with_scene
+from raysteps.cli.render import asks_for_help, build_program, refuse_place, run_raytrace, take_impl, with_scene
 from raysteps.cli.todo_steps import refuse_missing_tree, wanted_step
 from raysteps.common.errors import UsageError
 from raysteps.course.project import Project
@@ -41,6 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run_words(project: Project, args: list[str]) -> int:
     """The arguments of the program view, and --impl."""
     impl, args = take_impl(args)
+    if asks_for_help(project, args):
+        impl = "reference"
     wanted_step(project, args)
     args = with_scene(project, args, "view")
     refuse_place(args, "--screenshot")
