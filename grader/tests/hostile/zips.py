@@ -57,6 +57,18 @@ def zip_bomb_in_a_step(folder: Path, facts: Mapping[str, str]) -> Path:
     return _zip_of_zeros(folder, _PLACE, 20)
 
 
+def zip_bomb_that_lies(folder: Path, facts: Mapping[str, str]) -> Path:
+    path = _zip(folder)
+    with zipfile.ZipFile(path, "a", zipfile.ZIP_BZIP2) as archive, archive.open(_PLACE, "w") as file:
+        for _ in range(1500):
+            file.write(bytes(1 << 20))
+    data = bytearray(path.read_bytes())
+    at = data.rindex(b"PK\x01\x02") + 24  # the size in the list of all files
+    data[at : at + 4] = struct.pack("<L", 1000)
+    path.write_bytes(data)
+    return path
+
+
 def zip_bomb_overlapping(folder: Path, facts: Mapping[str, str]) -> Path:
     data = _zip(folder, {_PLACE: bytes(900_000)}).read_bytes()
     start, end = data.index(b"PK\x01\x02"), data.index(b"PK\x05\x06")
@@ -137,6 +149,7 @@ ZIPS: dict[str, Maker] = {
         zip_with_links,
         zip_bomb_flat,
         zip_bomb_in_a_step,
+        zip_bomb_that_lies,
         zip_bomb_overlapping,
         zip_bomb_nested,
         zip_of_many,

@@ -230,6 +230,24 @@ def test_a_decoder_that_asks_for_gigabytes_is_a_usage_error(tmp_path: Path, step
     assert "cannot be read as a folder, zip or tar" in outcome.stderr
 
 
+@pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_of_an_entry_no_more_is_unpacked_than_a_source_may_have(tmp_path: Path, method: int) -> None:
+    """Whatever the zip says of its size: the library would unpack all of it before it finds the lie."""
+    path, data = tmp_path / "ann.zip", b"/" * (1 << 20)
+    with zipfile.ZipFile(path, "w", method) as archive:
+        archive.writestr("fits.cpp", data)
+        archive.writestr("grows.cpp", data * 8)
+    packed = bytearray(path.read_bytes())
+    at = packed.rindex(b"PK\x01\x02") + 24  # the size in the list of all files
+    packed[at : at + 4] = b"\1\0\0\0"
+    path.write_bytes(packed)
+    found = archive_entries(path, may_be_link=True)
+    assert next(found).read() == data
+    grows = next(found)
+    with pytest.raises(entries.RejectedFile, match="larger than 1 MB"):
+        grows.read()
+
+
 @pytest.mark.parametrize("ending", ["gz", "xz", "bz2"])
 def test_damaged_archives_are_a_usage_error(tmp_path: Path, steps: list[Step], ending: str) -> None:
     whole = tmp_path / f"whole.tar.{ending}"

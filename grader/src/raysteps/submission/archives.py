@@ -1,6 +1,7 @@
 """Which kind of archive a submission is, and what its library raises when it is damaged."""
 
 import bz2
+import copy
 import gzip
 import io
 import lzma
@@ -200,15 +201,40 @@ def _kind_in_zip(info: zipfile.ZipInfo) -> str:
 
 
 _ENCRYPTED = 0x41  # in either of two ways
+_ENDS_ITSELF = 0x02  # of LZMA: what is packed tells where it ends
+
+
+def _packed(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> bytes:
+    """The bytes of an entry as they lie in the archive."""
+    stored = copy.copy(info)
+    stored.compress_type, stored.file_size = zipfile.ZIP_STORED, info.compress_size
+    del stored.CRC  # that of what is unpacked
+    with archive.open(stored) as file:
+        return file.read(entries.MAX_SOURCE + 1)
+
+
+def _unpacking(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> IO[bytes]:
+    """An entry to be read up to a cap. The library unpacks all that a few kB of BZIP2 or LZMA hold before it looks at
+    how much was asked for, which may be gigabytes."""
+    if info.compress_type not in (zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA):
+        return archive.open(info)
+    check_size(info.compress_size)
+    packed = _packed(archive, info)
+    if info.compress_type == zipfile.ZIP_BZIP2:
+        return bz2.BZ2File(io.BytesIO(packed))
+    size = -1 if info.flag_bits & _ENDS_ITSELF else info.file_size
+    return lzma.LZMAFile(io.BytesIO(packed[4:9] + size.to_bytes(8, "little", signed=True) + packed[9:]))
 
 
 def _read_zip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, root: Path) -> bytes:
     check_size(info.file_size)
     if info.flag_bits & _ENCRYPTED:
         raise UsageError(f"{root}: is encrypted; hand in an archive without a password")
-    with archive.open(info) as file:
+    with _unpacking(archive, info) as file:
         data = file.read(entries.MAX_SOURCE + 1)
     check_size(len(data))
+    if zlib.crc32(data) != info.CRC:
+        raise zipfile.BadZipFile("a file is not what it was when it was packed")
     return data
 
 
