@@ -267,6 +267,7 @@ def test_a_missing_function_is_named() -> None:
         ("Color Specular(const Fill& fill) {\n}", "The file has Specular: is that meant to be specular?"),
         ("Color specula(const Fill& fill) {\n}", "The file has specula: is that meant to be specular?"),
         ("Color specular(int fill) {\n}", "The file has specular, but with other arguments than the header's"),
+        ("inline Color specular(const Fill& fill) {\n}", "The file has specular, but marked as inline, so that only"),
         ("Color other(int fill);", ""),
         ("\n\n", "The file is empty. Was it saved?"),
         ("// nothing yet\n\n", "nothing but comments. Is the code commented out?"),

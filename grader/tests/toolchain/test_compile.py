@@ -39,6 +39,28 @@ def test_one_that_gives_up_on_a_file_does_not_build_it(kit: BuiltKit, tmp_path: 
     assert why_not_built(kit, kit.steps[0], compiled, _SOURCE).endswith("the compiler gave up and said nothing.")
 
 
+@pytest.mark.parametrize(
+    ("kind", "told"),
+    [
+        ('int f{0}() asm("{1}"); int f{0}() {{ return 1; }}', ""),
+        ('__attribute__((weak)) int f{0}() asm("{1}"); int f{0}() {{ return 1; }}', ""),
+        ('__attribute__((visibility("hidden"))) int f{0}() asm("{1}"); int f{0}() {{ return 1; }}', "hides them"),
+        ('extern const int f{0} asm("{1}"); const int f{0} = 1;', "they are no functions"),
+        ('extern thread_local int f{0} asm("{1}"); thread_local int f{0} = 1;', "they are no functions"),
+    ],
+)
+def test_functions_that_nobody_can_call_are_named(kit: BuiltKit, tmp_path: Path, kind: str, told: str) -> None:
+    """Else the program would find that out, test by test."""
+    step = next(one for one in kit.steps if one.id == "07-tone-mapping")
+    source = "\n".join(kind.format(number, name) for number, name in enumerate(kit.functions(step)))
+    compiled = StudentBuild(kit, LimitsOnly(), tmp_path).compile(step, source.encode(), kit.limits_of(step))
+    assert (compiled.binary is None) == bool(told)
+    if told:
+        message = why_not_built(kit, step, compiled, source)
+        assert "to_byte(float) and tone_map(const glm::vec3&) are defined, but cannot be called" in message
+        assert told in message
+
+
 def test_what_a_linker_finds_nowhere_is_a_students_whatever_its_name() -> None:
     """But for what sanitizers have in the program itself."""
     names = ["c_helper", "__helper", "_Z6helperv", "__asan_report_load4", "__ubsan_handle_out_of_bounds_abort"]

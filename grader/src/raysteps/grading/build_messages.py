@@ -257,6 +257,8 @@ def _in_its_place(names: tuple[str, ...], source: str) -> str:
     if "::" in names[0].partition("(")[0].replace("raysteps::", "") and name in defined:
         return ""  # of another class: with other arguments than the class tells, it would not compile
     if name in defined:
+        if re.search(rf"\binline\b[^;{{}}()]{{0,200}}\b{name}\s?\(", source):
+            return f"\nThe file has {name}, but marked as inline, so that only the file itself can call it."
         return f"\nThe file has {name}, but with other arguments than the header's, or outside of namespace raysteps."
     other = next((one for one in defined if one.lower() == name.lower()), None) or nearest(name, defined)
     return f"\nThe file has {other}: is that meant to be {name}? Upper and lower case differ, too." if other else ""
@@ -343,6 +345,16 @@ def missing_here(step: Step, names: tuple[str, ...], source: str) -> str:
     return missing_message(names) + (_in_its_place(names, source) or _of_another_step(step, source))
 
 
+def hidden_message(names: tuple[str, ...]) -> str:
+    """Functions that are there, and can be called from nowhere else."""
+    shown = join_and([_as_in_a_header(name).replace("raysteps::", "") for name in names])
+    one = len(names) == 1
+    return (
+        f"{NOT_BUILT}{shown} {'is' if one else 'are'} defined, but cannot be called from outside of the file: a pragma "
+        f"or an attribute hides {'it, or it is no function' if one else 'them, or they are no functions'}."
+    )
+
+
 def _of_another_step(step: Step, source: str) -> str:
     """A line about a file that asks for the header of another step, and not for that of its own."""
     headers = [name.strip('<>"') for name in included(source) if name[1:].startswith("steps/")]
@@ -425,4 +437,6 @@ def why_not_built(kit: BuiltKit, step: Step, compiled: Compiled, source: str) ->
         return undefined_here(step, compiled.undefined, source)
     if compiled.missing:
         return missing_here(step, compiled.missing, source)
+    if compiled.hidden:
+        return hidden_message(compiled.hidden)
     return compile_message(step, source, compiled.ran)

@@ -102,6 +102,15 @@ def unqualified_name(linker_name: str) -> str:
 _NM_ARGUMENTS = ("--extern-only", "--format=posix")
 
 
+_KINDS_OF_FUNCTIONS = ("T", "W", "i")  # usual, weak, and chosen when the library is loaded
+
+
+def shown_functions(text: str) -> set[str]:
+    """Of the output of such an nm about a library."""
+    lines = map(str.split, text.splitlines())
+    return {words[0] for words in lines if len(words) > 1 and words[1] in _KINDS_OF_FUNCTIONS}
+
+
 def _without_kind_and_place(line: str) -> str:
     """The name at the start of a line of nm: behind it stand one letter and at most two numbers."""
     line = line.rstrip()
@@ -177,6 +186,7 @@ class Compiled:
     ran: TaskResult
     forbidden: tuple[str, ...] = ()  # linker names that the step may not ask for
     missing: tuple[str, ...] = ()  # functions that the step should define
+    hidden: tuple[str, ...] = ()  # those that it defines so that nobody can call them
     undefined: tuple[str, ...] = ()  # functions that the step calls and nobody defines
     unreadable: bool = False  # an object that no compiler makes of what a student writes
     barred: tuple[str, ...] = ()  # functions that the step may not call, as step.toml calls them; see _by_its_source
@@ -352,7 +362,7 @@ class StudentBuild:
         missing = tuple(shown for name, shown in self._kit.functions(step).items() if name not in symbols.defined)
         undefined = self._shown(raw, [name for name in strange if name not in forbidden], limits)
         if forbidden or missing or undefined:
-            return Compiled(None, compiled, forbidden, missing, undefined)
+            return Compiled(None, compiled, forbidden, missing, undefined=undefined)
         words: list[Word] = [description.compiler, *description.link_flags, *library_flags(step.number)]
         words += [Input(self._kit.exports(step), "exports"), Input(raw, "step.o"), *REPORT_UNDEFINED]
         ran = self._run(limits, *words, "-o", Output("library"))
@@ -362,7 +372,18 @@ class StudentBuild:
         nowhere = sorted(unresolved_names(ran) & foreign)
         if nowhere:  # such as what is declared as C and was forgotten
             return Compiled(None, compiled, undefined=self._shown(raw, nowhere, limits))
-        return Compiled(self._write_library(step, data), compiled)
+        path = self._write_library(step, data)
+        hidden = self._hidden(step, path, limits)
+        return Compiled(None if hidden else path, compiled, hidden=hidden)
+
+    def _hidden(self, step: Step, library: Path, limits: StepLimits) -> tuple[str, ...]:
+        """Functions of the step that its library does not show, by a pragma or attribute, or that are none."""
+        assert self._kit.description.seal is not None
+        words = (self._kit.description.seal.nm, "--dynamic", "--defined-only", *nm_arguments())
+        listed = self._run(limits, *words, Input(library, "library")).outcome
+        shown = shown_functions(listed.stdout)
+        functions = self._kit.functions(step).items() if listed.code == 0 else ()
+        return tuple(readable for name, readable in functions if name not in shown)
 
     def _shown(self, raw: Path, names: list[str], limits: StepLimits) -> tuple[str, ...]:
         """Linker names of an object as C++ writes them."""
