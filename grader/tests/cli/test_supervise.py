@@ -5,11 +5,16 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from raysteps.cli import supervise
 from raysteps.cli.grade import seconds_at_most
+from raysteps.toolchain import limits
+from raysteps.toolchain.limits import restart_clock
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody stands beside the grader")
 _START = """
@@ -95,6 +100,26 @@ def test_a_grader_does_not_outlive_who_stands_beside_it(tmp_path: Path) -> None:
     while _runs(pid) and Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z":
         assert time.monotonic() < end
         time.sleep(0.02)
+
+
+def test_the_clock_starts_anew_when_the_grader_has_done_work_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    end, held = os.pipe()
+    now, waited = 0.0, list[float]()
+    happens = iter((restart_clock, partial(os.close, held)))
+
+    def select(files: list[int], _: object, __: object, seconds: float) -> tuple[list[int]]:
+        nonlocal now
+        waited.append(seconds)
+        now += 9.0
+        next(happens)()
+        return (files[:1],)
+
+    monkeypatch.setattr(limits, "_listeners", [held])
+    monkeypatch.setattr(supervise, "select", SimpleNamespace(select=select))
+    monkeypatch.setattr(supervise, "time", SimpleNamespace(monotonic=lambda: now))
+    assert supervise._is_over(end, 10.0)
+    assert waited == [10.0, 10.0]
+    os.close(end)
 
 
 def test_the_limit_of_a_submission_says_when() -> None:

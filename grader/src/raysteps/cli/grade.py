@@ -35,7 +35,7 @@ from raysteps.submission.load import (
     submissions_inside,
 )
 from raysteps.toolchain.build_kit import build_kit
-from raysteps.toolchain.limits import LIMIT_HELP, give_up_after, parse_limits
+from raysteps.toolchain.limits import LIMIT_HELP, give_up_after, parse_limits, restart_clock
 
 
 @dataclass(frozen=True)
@@ -133,6 +133,10 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
     def again(case: str) -> str:
         return kit_command("replay", short_path(out / case), "--submission", options.submission)
 
+    def say_of_kit(text: str) -> None:
+        restart_clock()  # no submission's time
+        say(text)
+
     if options.out is not None:
         refuse_results_in(options.submission, options.out, ("pictures", CASES_FOLDER))
     course = read_course(project).name
@@ -144,7 +148,8 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
         say = progress(console, status)
         with file_lock(room / "locks" / lock, lambda: say(f"waiting for another command, which grades into {out}")):
             submission = load_submission(options.submission, read_steps(project))
-            kit = build_kit(project, say)
+            kit = build_kit(project, say_of_kit)
+            restart_clock()
             replaces = (out / "results.json").exists() and bool(options.settings.only)
             clear_old_results(out, kit.steps, kit.steps)
             jobs = options.jobs or processor_count()

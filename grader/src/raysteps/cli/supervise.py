@@ -14,6 +14,7 @@ from pathlib import Path
 from raysteps.classroom.jobs import gave_up
 from raysteps.classroom.process_tree import kill_process_tree, remove
 from raysteps.common.errors import GraderFault
+from raysteps.toolchain.limits import tell_of_restarts
 
 _PR_SET_PDEATHSIG = 1
 _GRACE_SECONDS = 2.0  # to tidy up after Ctrl-C, which both processes hear
@@ -33,16 +34,20 @@ def _signals() -> Iterator[int]:
         os.close(heard)
 
 
+_WORDS = 4096  # more than are ever said at a time
+
+
 def _is_over(end: int, seconds: float) -> bool:
-    """Whether the other process has ended, or ends within that time."""
-    give_up = time.monotonic() + seconds
+    """Whether the other process has ended, or ends within that time of the last word that it said."""
+    give_up, over = time.monotonic() + seconds, False
     with _signals() as signals:
-        ready: list[int] = [signals]
-        while ready == [signals]:
-            ready = select.select([end, signals], [], [], max(0.0, give_up - time.monotonic()))[0]
+        while not over and (ready := select.select([end, signals], [], [], max(0.0, give_up - time.monotonic()))[0]):
             if signals in ready:
                 os.read(signals, 1)
-    return end in ready
+            if end in ready:
+                over = not os.read(end, _WORDS)
+                give_up = time.monotonic() + seconds
+    return over
 
 
 def _wait(end: int, seconds: float, blocked: Collection[int]) -> bool:
@@ -58,8 +63,8 @@ def _wait(end: int, seconds: float, blocked: Collection[int]) -> bool:
 
 
 def run_with_timeout(work: Callable[[], int], seconds: float) -> int:
-    """The exit code of the work, which goes on in a child of this process; both come back from here. After so many
-    seconds it is a fault of the grader, whose temporary files go as well."""
+    """The exit code of the work, which goes on in a child of this process; both come back from here. So many
+    seconds after the last `restart_clock` it is a fault of the grader, whose temporary files go as well."""
     if sys.platform != "linux":
         return work()
     scratch = Path(tempfile.mkdtemp(prefix="raysteps-grade-"))
@@ -72,6 +77,7 @@ def run_with_timeout(work: Callable[[], int], seconds: float) -> int:
         os.close(end)
         scratch.chmod(0o711)  # a sandbox may run as another user
         tempfile.tempdir = os.environ["TMPDIR"] = str(scratch)
+        tell_of_restarts(held)
         return work()  # `held` stays open until the process has ended
     try:
         os.close(held)

@@ -27,7 +27,7 @@ from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.sandbox.task import Sandbox
 from raysteps.toolchain.compile import Program, StudentBuild
 from raysteps.toolchain.kit_artifacts import BuiltKit, Kind, ProgressCallback, rate_limited
-from raysteps.toolchain.limits import limits_of
+from raysteps.toolchain.limits import limits_of, restart_clock
 
 _FACTS = "answers"
 
@@ -193,5 +193,6 @@ def _learn(
         known: dict[str, MutantFingerprint] = {}
         for name, learned in zip(forms, pool.map(learner.learn, forms, forms.values()), strict=True):
             known[name] = learned
+            restart_clock()
             far(f"{len(known)} of {len(forms)}")
     return known
