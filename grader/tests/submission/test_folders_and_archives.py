@@ -102,6 +102,13 @@ def test_a_submission_that_is_neither_file_nor_folder_is_named(tmp_path: Path, s
         load_submission(tmp_path / "anm", steps)
 
 
+def test_a_link_that_leads_nowhere_is_not_said_to_be_missing(tmp_path: Path, steps: list[Step]) -> None:
+    (tmp_path / "ann").symlink_to("ben")
+    (tmp_path / "ben").symlink_to("ann")
+    with pytest.raises(UsageError, match=r"ann: is a link that leads nowhere; expected a submission: .* tar$"):
+        load_submission(tmp_path / "ann", steps)
+
+
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root makes devices")
 def test_devices_are_not_opened(tmp_path: Path, steps: list[Step]) -> None:
     try:

@@ -264,7 +264,8 @@ def _collect(path: Path, collector: _Collector, *, may_be_link: bool) -> None:
         collector.take(reader.entries())
         collector.cannot_look_into(reader.closed)
     elif not path.exists():
-        raise UsageError(f"{path}: is not there; expected a submission: a folder, zip or tar{like(path)}")
+        what, near = ("is a link that leads nowhere", "") if path.is_symlink() else ("is not there", like(path))
+        raise UsageError(f"{path}: {what}; expected a submission: a folder, zip or tar{near}")
     elif not path.is_file():
         raise UsageError(f"{path}: is {what_is(path.stat().st_mode)}; expected a submission: a folder, zip or tar")
     else:
