@@ -102,6 +102,7 @@ def unqualified_name(linker_name: str) -> str:
 _NM_ARGUMENTS = ("--extern-only", "--format=posix")
 
 
+_MAY_HIDE = re.compile(rb"visibility|pragma|asm|alias")
 _KINDS_OF_FUNCTIONS = ("T", "W", "i")  # usual, weak, and chosen when the library is loaded
 
 
@@ -325,11 +326,9 @@ class StudentBuild:
                 self._require_compiler(limits)
             return Compiled(None, ran)
         raw = self._write(f"{step.number}.o", data)
-        return (
-            _checked_by_source(step, source, raw, ran)
-            if description.seal is None
-            else self._close(step, raw, ran, limits)
-        )
+        if description.seal is None:
+            return _checked_by_source(step, source, raw, ran)
+        return self._close(step, raw, ran, limits, may_hide=bool(_MAY_HIDE.search(source)))
 
     def _require_compiler(self, limits: StepLimits) -> None:
         """One that says nothing may not run here at all, which is nobody's mistake who handed something in: it has to
@@ -347,8 +346,9 @@ class StudentBuild:
                 f"{build_log(ran) or 'nothing'}. Has this container, or this user, fewer rights than usual?"
             )
 
-    def _close(self, step: Step, raw: Path, compiled: TaskResult, limits: StepLimits) -> Compiled:
-        """Turns an object into a library, unless it asks for what is not its own or lacks what it should have."""
+    def _close(self, step: Step, raw: Path, compiled: TaskResult, limits: StepLimits, *, may_hide: bool) -> Compiled:
+        """Turns an object into a library, unless it asks for what is not its own or lacks what it should have. Where
+        nothing in its source hides functions, nobody looks whether it does: that takes another program."""
         description = self._kit.description
         assert description.seal is not None
         listed = self._run(limits, description.seal.nm, *_NM_ARGUMENTS, Input(raw, "step.o"))
@@ -373,13 +373,13 @@ class StudentBuild:
         if nowhere:  # such as what is declared as C and was forgotten
             return Compiled(None, compiled, undefined=self._shown(raw, nowhere, limits))
         path = self._write_library(step, data)
-        hidden = self._hidden(step, path, limits)
+        hidden = self._hidden(step, path, limits) if may_hide else ()
         return Compiled(None if hidden else path, compiled, hidden=hidden)
 
     def _hidden(self, step: Step, library: Path, limits: StepLimits) -> tuple[str, ...]:
         """Functions of the step that its library does not show, by a pragma or attribute, or that are none."""
         assert self._kit.description.seal is not None
-        words = (self._kit.description.seal.nm, "--dynamic", "--defined-only", *nm_arguments())
+        words = (self._kit.description.seal.nm, "--dynamic", "--defined-only", *_NM_ARGUMENTS)
         listed = self._run(limits, *words, Input(library, "library")).outcome
         shown = shown_functions(listed.stdout)
         functions = self._kit.functions(step).items() if listed.code == 0 else ()
