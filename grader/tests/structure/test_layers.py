@@ -46,7 +46,7 @@ def test_framework(project: Project, layer: str) -> None:
     assert files, f"framework/{layer} is empty"
     for path in files:
         allowed = set(_ALLOWED[layer])
-        if path.name.endswith("_test.cpp"):
+        if path.name.endswith("_test.cpp") or path.name.startswith("test_"):
             allowed |= {"testing"} if layer in ("core", "io", "testing") else {"testing", "io", "render"}
         for include in _includes(path):
             found = _layer(include)
