@@ -58,7 +58,8 @@ namespace raysteps {
 /// Light that comes back along the ray: an estimate from one path, right on average. All is as in path_light of step
 /// 13 but for the lamps:
 /// - at each hit: emitted_light(hit), in full if the ray comes from the eye; else times emission_weight, of the sample
-///   that led there and tracer.light_pdf(from, hit), where `from` is the position of the hit before
+///   that led there and tracer.light_pdf(from, hit), where `from` is the position of the hit before; the origin of the
+///   ray, a little off it, will do
 /// - at each hit: direct_light of tracer.direct_samples(hit), asked once; light_sample is not asked
 /// The background is no lamp, and counts in full. Roulette is that of step 13: k_sure_bounces, survival_probability.
 [[nodiscard]] Color mis_path_light(MisTracer& tracer, const Ray& ray, RandomStream& random);

@@ -106,6 +106,16 @@ def _extreme_colors(draw: RandomSource) -> Inputs:
     return {**inputs, "fill": fill, "light": Light(draw.point(5), (channel(), channel(), channel()))}
 
 
+def _dim(draw: RandomSource, lamp: Light) -> Light:
+    """Too dark for one lamp to be seen: light is added up all the same."""
+    return replace(lamp, color=draw.color(0.005, 0.05))
+
+
+def _dim_diffuse(draw: RandomSource) -> Inputs:
+    inputs = _diffuse(draw, 0.5, 0.99)
+    return {**inputs, "light": _dim(draw, draw.light(draw.point(5)))}
+
+
 def _simple_diffuse(draw: RandomSource) -> Inputs:
     normal, to_light = simple_normals(draw)
     return {
@@ -123,6 +133,7 @@ DIFFUSE = Function(
         Group("light in front", lambda d: _diffuse(d, 0.1, 0.99)),
         Group("simple numbers", _simple_diffuse),
         Group("extreme colours", _extreme_colors),
+        Group("a dim light", _dim_diffuse),
         Group("around a right angle", _around_right_angle, exact=True),
         Group("light behind", lambda d: _diffuse(d, -0.99, -0.1)),
     ),
@@ -306,6 +317,13 @@ def _polished(draw: RandomSource) -> Inputs:
     return _lights(draw, replace(hit, fill=fill), draw.whole(2, 4), low=0.3)
 
 
+def _dim_lights(draw: RandomSource) -> Inputs:
+    inputs = _lights(draw, _hit(draw), draw.whole(9, 20), low=0.1)
+    lights = inputs["lights"]
+    assert isinstance(lights, Lights)
+    return {**inputs, "lights": Lights(tuple(_dim(draw, lamp) for lamp in lights.lights))}
+
+
 def _bright(draw: RandomSource) -> Inputs:
     hit = _hit(draw)
     hit = replace(hit, fill=replace(hit.fill, color=draw.color(0.7, 1.0), kd=1.0))
@@ -325,6 +343,7 @@ SHADE = Function(
         Group("lights in front and behind", _front_and_back),
         Group("far lights", lambda d: _lights(d, _hit(d), 2, near=50, far=200)),
         Group("brighter than 1", _bright),
+        Group("dim lights", _dim_lights),
         Group("very near lights", _near_lights),
         Group("very far lights", lambda d: _lights(d, _hit(d), 2, near=1e3, far=1e5)),
         Group("lights around the horizon", _lights_around_horizon),

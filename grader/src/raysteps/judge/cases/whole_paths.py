@@ -291,14 +291,24 @@ def _faint(draw: RandomSource) -> Inputs:
     return once(draw, PathScript(BLACK, goes_on=False, hits=tuple(found)))
 
 
-def _white_walls(draw: RandomSource) -> Inputs:
-    """They take nothing, and are no mirrors."""
-    make = _of_kinds(("", "ex"), ("", "", "ex"), ("s", "", "ex"), ("", "s", "ex"))
-    inputs = make(draw)
-    script = inputs["tracer"]
-    assert isinstance(script, PathScript)
-    hits = tuple(replace(hit, scatter=hit.scatter and replace(hit.scatter, weight=WHITE)) for hit in script.hits)
-    return {**inputs, "tracer": PathScript(BLACK, goes_on=False, hits=hits)}
+def _weighing(weight: Callable[[RandomSource], Vector], *choices: tuple[str, ...]) -> Callable[[RandomSource], Inputs]:
+    """Scripts of such kinds, with other weights."""
+    make = _of_kinds(*choices)
+
+    def changed(draw: RandomSource) -> Inputs:
+        inputs = make(draw)
+        script = inputs["tracer"]
+        assert isinstance(script, PathScript)
+        scatters = (hit.scatter and replace(hit.scatter, weight=weight(draw)) for hit in script.hits)
+        hits = tuple(replace(hit, scatter=scatter) for hit, scatter in zip(script.hits, scatters, strict=True))
+        return {**inputs, "tracer": PathScript(BLACK, goes_on=False, hits=hits)}
+
+    return changed
+
+
+# White walls take nothing, and are no mirrors. A direction that is seldom drawn counts for more than itself.
+_WHITE_WALLS = _weighing(lambda _d: WHITE, ("", "ex"), ("", "", "ex"), ("s", "", "ex"), ("", "s", "ex"))
+_ABOVE_WHITE = _weighing(lambda d: d.color(1.2, 4.0), ("", "x"), ("", "", "x"), ("s", "ex"), ("s", "", "x"))
 
 
 def one_channel(draw: RandomSource) -> Vector:
@@ -336,7 +346,8 @@ PATH_LIGHT = Function(
         Group("a very bright lamp", _bright),
         Group("a very bright lamp that is seen", _seen(lambda d: d.color(50, 2000))),
         Group("a lamp of one colour", _seen(one_channel)),
-        Group("white walls", _white_walls),
+        Group("white walls", _WHITE_WALLS),
+        Group("weights above 1", _ABOVE_WHITE),
         Group("faint paths", _faint),
         Group("a furnace", lambda d: often(d, _furnace(d, 0.5, 0.6), 0.03)),
         Group("bright walls", lambda d: often(d, _furnace(d, 0.75, 0.8), 0.06)),
