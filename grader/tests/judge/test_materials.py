@@ -238,6 +238,14 @@ def _frosted(seed: int, *, first: str = "") -> str:
     return f"{rows(directions)}{lost} {rows(directions[:1])}"  # and the first once more
 
 
+def test_what_is_bent_farther_than_glass_bends_was_mirrored() -> None:
+    """And must not lead below the surface, however little."""
+    inputs, right = {**_GLASS, "roughness": Real(_FROST)}, _frosted(0)
+    numbers = right.split()
+    numbers[10:13] = _line(np.array([0.0, 1.0, -0.001])).split()  # of the second sample
+    assert _said("scatter_glass", inputs, right, " ".join(numbers)) == "a mirrored direction leads below the surface"
+
+
 def test_what_is_mirrored_in_frosted_glass_is_fresnels_to_say() -> None:
     inputs = {**_GLASS, "roughness": Real(_FROST)}
     right = _frosted(0)

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from raysteps.common.vectors import cross, dot, length, minus, unit
+from raysteps.common.vectors import add, cross, dot, length, minus, times, unit
 from raysteps.course.project import Project
 from raysteps.judge.functions import functions_of
 from raysteps.judge.protocol import Inputs
@@ -32,6 +32,36 @@ def _from_plane(inputs: Any) -> float:
     return abs(dot(normal, minus(t.a, ray.origin)) / dot(normal, ray.direction))
 
 
+def _sine_with_plane(inputs: Any) -> float:
+    t = inputs["triangle"]
+    return abs(dot(unit(cross(minus(t.b, t.a), minus(t.c, t.a))), inputs["ray"].direction))
+
+
+def _share_beside_edge(inputs: Any) -> float:
+    """The least of the three weights that the corners have where the ray meets the plane."""
+    t, ray = inputs["triangle"], inputs["ray"]
+    across = cross(minus(t.b, t.a), minus(t.c, t.a))
+    distance = dot(across, minus(t.a, ray.origin)) / dot(across, ray.direction)
+    spoke, whole = minus(add(ray.origin, ray.direction, distance), t.a), dot(across, across)
+    b = dot(cross(spoke, minus(t.c, t.a)), across) / whole
+    c = dot(cross(minus(t.b, t.a), spoke), across) / whole
+    return min(abs(b), abs(c), abs(1 - b - c))
+
+
+def _length_of_blend(inputs: Any) -> float:
+    face, weights = inputs["face"], inputs["weights"].value
+    corners = zip(weights, (face.a, face.b, face.c), strict=True)
+    return math.hypot(*(sum(parts) for parts in zip(*(times(w, corner.normal) for w, corner in corners), strict=True)))
+
+
+def _over_lamp(inputs: Any) -> float:
+    return dot(inputs["normal"].value, minus(inputs["from"].value, inputs["position"].value))
+
+
+def _over_surface(inputs: Any) -> float:
+    return dot(inputs["hit"].normal, minus(inputs["position"].value, inputs["hit"].position))
+
+
 def _from_sphere(inputs: Any) -> float:
     s, ray = inputs["sphere"], inputs["ray"]
     return abs(length(minus(ray.origin, s.center)) - float(s.radius))
@@ -52,6 +82,8 @@ _QUANTITIES: dict[tuple[str, str], Callable[[Any], float | Iterable[float]]] = {
     ("primary_ray", "width in pixels"): lambda i: i["camera"].width,
     ("Triangle::intersect", "longest edge"): _longest_edge,
     ("Triangle::intersect", "distance from the plane"): _from_plane,
+    ("Triangle::intersect", "sine of the angle with the plane"): _sine_with_plane,
+    ("Triangle::intersect", "distance from an edge, as a share"): _share_beside_edge,
     ("Sphere::intersect", "radius"): lambda i: i["sphere"].radius,
     ("Sphere::intersect", "distance from the surface"): _from_sphere,
     ("closest_hit", "distance"): lambda i: [s.distance for s in i["surfaces"].surfaces if s.distance is not None],
@@ -63,7 +95,13 @@ _QUANTITIES: dict[tuple[str, str], Callable[[Any], float | Iterable[float]]] = {
     ("is_lit", "distance of the light"): _to_light,
     ("trace", "ks"): lambda i: [hit.ks for hit in i["tracer"].hits],
     ("trace", "most bounces"): lambda i: i["tracer"].max_depth,
+    ("Box::clip", "small numbers of the direction"): lambda i: sorted(map(abs, i["ray"].direction))[:2],
     ("closest_hit_in_octree", "number of surfaces"): lambda i: len(i["surfaces"].surfaces),
+    ("shading_normal", "length of the blend"): _length_of_blend,
+    ("solid_angle_pdf", "distance"): lambda i: length(minus(i["from"].value, i["position"].value)),
+    ("solid_angle_pdf", "height over the lamp's plane"): _over_lamp,
+    ("sampled_light", "height over the surface's plane"): _over_surface,
+    ("sampled_light", "pdf"): lambda i: i["pdf"].value,
 }
 
 
@@ -74,7 +112,7 @@ def _rows(project: Project) -> list[tuple[str, str, float, float, str]]:
 
 
 def _drawn(function: str, what: str, kind: str) -> list[float]:
-    known = next(functions for n in range(1, 10) if function in (functions := functions_of(f"{n:02d}")))[function]
+    known = next(functions for n in range(1, 16) if function in (functions := functions_of(f"{n:02d}")))[function]
     draw = RandomSource(f"ranges/{function}/{kind}")
     values: list[float] = []
     for _ in range(_DRAWS):

@@ -4,7 +4,7 @@ from raysteps.common.vectors import Vector, add, cross, length, minus, times, un
 from raysteps.judge.functions import Function, Group
 from raysteps.judge.hits import FOUND, HIT
 from raysteps.judge.protocol import Inputs, Ray, rounded
-from raysteps.judge.random_source import RandomSource, next_axis, with_zeros
+from raysteps.judge.random_source import RandomSource, circle, next_axis, with_zeros
 from raysteps.judge.surfaces import ScriptedSurface, Sphere, Surfaces, Triangle
 
 # Rays that are aimed at a triangle or beside it.
@@ -13,6 +13,8 @@ _SIZES = (0.002, 1000.0)  # of a triangle's longest edge and of a sphere's radiu
 _NEAREST = 3e-4  # a hit nearer than 1e-4 may be left out
 _NEAR = 9e-4  # a threshold of 1e-3, which many programs have here, leaves out what is nearer
 _STEEP = 0.2  # least cosine between ray and normal: seen edge-on, rounding may decide
+_SLACK = (2e-4, 8e-4)  # how far beside an edge, as a share of the triangle: so little that a slack of 0.001 hides it
+_FLAT = (1.5e-4, 8e-4)  # cosine between ray and normal that who compares it with 0.001 takes for 0
 
 
 def _triangle_case(t: Triangle, ray: Ray, draw: RandomSource) -> Inputs:
@@ -104,9 +106,9 @@ def _triangle_signed_zeros(draw: RandomSource) -> Inputs:
     return _triangle_case(t, Ray(add(t.at(u, v), direction, -distance), direction), draw)
 
 
-def _at_edge(draw: RandomSource, t: Triangle) -> Vector:
+def _at_edge(draw: RandomSource, t: Triangle, low: float, high: float) -> Vector:
     """Within an edge or beyond it, by a little that float can tell; or so beside a corner."""
-    off, along = draw.real(0.005, 0.02) * draw.sign(), draw.real(0.1, 0.8)
+    off, along = draw.real(low, high) * draw.sign(), draw.real(0.1, 0.8)
     points = [(off, along), (along, off), (along, 1 - along - off), (-abs(off), -abs(off)), (abs(off), abs(off))]
     return t.at(*points[draw.whole(0, 4)])
 
@@ -148,7 +150,32 @@ def _of_size(draw: RandomSource, size: float, place: Vector) -> Triangle:
 
 def _close_to_edge(draw: RandomSource) -> Inputs:
     t = draw.triangle()
-    return _triangle_case(t, _towards(draw, t, _at_edge(draw, t), draw.sign(), draw.real(1, 5)), draw)
+    return _triangle_case(t, _towards(draw, t, _at_edge(draw, t, 0.005, 0.02), draw.sign(), draw.real(1, 5)), draw)
+
+
+def _very_close_to_edge(draw: RandomSource) -> Inputs:
+    """Seen from near and not at a slant, so that rounding is far less than what is beside the edge."""
+    t = draw.triangle(2.0)
+    direction = times(-1.0, draw.above(times(draw.sign(), _normal_of(t)), 0.6))
+    target = _at_edge(draw, t, *_SLACK)
+    return _triangle_case(t, Ray(rounded(add(target, direction, -draw.real(1, 2))), rounded(direction)), draw)
+
+
+def _very_flat(draw: RandomSource) -> Inputs:
+    """The plane goes through the centre of the world, along two axes: no difference of two numbers loses digits."""
+    axis, legs = draw.whole(0, 2), (draw.real(1, 4), draw.real(1, 4))
+
+    def at(of_first: float, of_second: float, height: float = 0.0) -> Vector:
+        parts = [0.0, 0.0, 0.0]
+        parts[axis], parts[(axis + 1) % 3], parts[(axis + 2) % 3] = height, of_first, of_second
+        return parts[0], parts[1], parts[2]
+
+    corner, signs = (draw.real(-1, 1), draw.real(-1, 1)), (draw.sign(), draw.sign())
+    a = at(*corner)
+    t = Triangle(a, rounded(add(a, at(signs[0] * legs[0], 0.0))), rounded(add(a, at(0.0, signs[1] * legs[1]))))
+    (across, along), flat = circle(draw.fine(0, 1)), draw.sign() * draw.logarithmic(*_FLAT)
+    direction = rounded(unit(at(across, along, flat)))
+    return _triangle_case(t, Ray(rounded(add(_inside(draw, t), direction, -draw.real(1, 4))), direction), draw)
 
 
 def _sliver(draw: RandomSource) -> Inputs:
@@ -199,9 +226,11 @@ TRIANGLE_INTERSECT = Function(
         Group("seen from behind", lambda d: _from_side(d, -1.0)),
         Group("small triangles", _small_triangle),
         Group("at a grazing angle", _grazing),
+        Group("at a very flat angle", _very_flat),
         Group("of any size", _triangle_of_any_size),
         Group("long and thin", _sliver),
         Group("close to an edge", _close_to_edge),
+        Group("very close to an edge", _very_close_to_edge),
         Group("origin close to the triangle", _close_to_triangle),
         Group("along an axis, with zeros of either sign", _triangle_signed_zeros, exact=True),
         Group("on an edge", _on_edge, exact=True),

@@ -489,7 +489,8 @@ def _glass_problems(inputs: Inputs, actual: _Glass) -> tuple[str, ...]:
     steep = np.abs(next_[:, 2]) > _LEVEL
     shares = dielectric(cosines, eta)
     return (
-        _share_problem(is_mirrored, shares, samples.nothing)
+        _unbent_problem(_dots(view, next_)[~is_mirrored], eta)
+        or _share_problem(is_mirrored, shares, samples.nothing)
         or (_odds_problem(is_mirrored, shares, view, normals, samples.nothing) if alpha else ""),
         _weight_problem("the weight is wrong", samples.weights, right, steep),
         rough_problem(normals, samples.nothing, view, alpha, eta) if alpha else _of_smooth(samples.nothing),
@@ -506,6 +507,15 @@ def _astray(is_mirrored: Mask, normals: Numbers) -> str:
     """Of smooth glass: which of the two ways is not the one of its law."""
     astray = normals[:, 2] <= 1 - 2e-4
     return plainly_wrong(f"the {'mirrored' if (astray & is_mirrored).any() else 'refracted'} direction")
+
+
+def _unbent_problem(cosines: Numbers, eta: float) -> str:
+    """`cosines`: between the view and directions below the surface. What is refracted lies on the other side of its
+    microfacet, and is bent by no more than a ray along that: what is bent farther was mirrored."""
+    return _MIRRORED_BELOW if (cosines > 1e-3 - min(eta, 1 / eta)).any() else ""
+
+
+_MIRRORED_BELOW = "a mirrored direction leads below the surface"
 
 
 def _odds_problem(is_mirrored: Mask, shares: Numbers, view: Numbers, normals: Numbers, nothing: int) -> str:

@@ -37,7 +37,7 @@ from raysteps.judge.protocol import (
     rounded,
     text,
 )
-from raysteps.judge.random_source import RandomSource
+from raysteps.judge.random_source import RandomSource, circle
 from raysteps.judge.surfaces import Triangle
 
 # Faces, and places in them.
@@ -205,6 +205,17 @@ def _short_blend(draw: RandomSource) -> Inputs:
     return _shading(Face(a, b, c), _EVEN, rounded(times(-1, draw.above(normal, 0.95))))
 
 
+def _very_short_blend(draw: RandomSource) -> Inputs:
+    """Two normals that nearly cancel each other out; what is left is a hundredth or less, and points to the viewer."""
+    face, across = _simple_face(), (*circle(draw.fine(0, 1)), 0.0)
+    left = times(draw.logarithmic(2e-3, 8e-3), draw.above((0.0, 0.0, 1.0), 0.7, 0.95))
+    a, b = (
+        replace(corner, normal=rounded(unit(add(left, across, sign))))
+        for corner, sign in ((face.a, 1.0), (face.b, -1.0))
+    )
+    return _shading(Face(a, b, face.c), (0.5, 0.5, 0.0), (0.0, 0.0, -1.0))
+
+
 def _nothing_left(draw: RandomSource) -> Inputs:
     """The normals cancel each other out, or the mesh has none."""
     face = _simple_face()
@@ -231,6 +242,7 @@ _NORMAL = Function(
         Group("a corner", _normal_of_corner),
         Group("turned away from the viewer", _turned_away),
         Group("a short blend", _short_blend),
+        Group("a very short blend", _very_short_blend),
         Group("seen from the side", _seen_from_the_side),
         Group("nothing left", _nothing_left, exact=True),
     ),

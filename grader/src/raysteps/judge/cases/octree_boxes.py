@@ -294,6 +294,26 @@ def _almost_along_axis(draw: RandomSource) -> Inputs:
     return _clip(box, add(within(draw, box), direction, -(beside if from_beside else draw.real(5, 10))), direction)
 
 
+def _along_face_from_far(draw: RandomSource) -> Inputs:
+    """As far along the other two axes as the box is wide, on a way that is thousands of times as long: who takes a
+    thousandth for 0 loses the box."""
+    box, axis = any_box(draw), draw.whole(0, 2)
+    way = [draw.sign() * (1.0 if i == axis else draw.logarithmic(3e-5, 8e-4)) for i in range(3)]
+    direction = rounded(unit((way[0], way[1], way[2])))
+    widths = [high - low for low, high in zip(box.low, box.high, strict=True)]
+    beside = max(width / abs(x) for i, (width, x) in enumerate(zip(widths, direction, strict=True)) if i != axis)
+    return _clip(box, add(within(draw, box), direction, -beside), direction)
+
+
+def _very_far(draw: RandomSource) -> Inputs:
+    """Large boxes far away, or around the origin: a ray has no end."""
+    distance, low = draw.logarithmic(1e5, 1e7), draw.point(1)
+    size = (draw.real(0.2, 1), draw.real(0.2, 1), draw.real(0.2, 1))
+    box, direction = Box(low, rounded(add(low, size, distance))), draw.slanted(0.1)
+    inside = within(draw, box)
+    return _clip(box, inside if draw.chance(0.3) else add(inside, direction, -2 * distance), direction)
+
+
 def _tiny_or_huge(draw: RandomSource) -> Inputs:
     size, low = (0.02, draw.point(0.5)) if draw.chance(0.5) else (500.0, draw.point(100))
     high = add(low, (size * draw.real(0.5, 2), size * draw.real(0.5, 2), size * draw.real(0.5, 2)))
@@ -312,7 +332,9 @@ CLIP = Function(
         Group("flat boxes", flat, exact=True),
         Group("origin on a face", from_face, exact=True),
         Group("almost along an axis", _almost_along_axis),
+        Group("nearly along a face, from far away", _along_face_from_far),
         Group("tiny and huge boxes", _tiny_or_huge),
+        Group("very far away", _very_far),
         Group("close to an edge or a corner", _close_to_corner),
         Group("behind the origin", _box_behind),
         Group("past the box", _past),

@@ -167,9 +167,9 @@ _PDF = Answer(
 )
 
 
-def _seen(draw: RandomSource, distance: float, low: float, high: float) -> Inputs:
+def _seen(draw: RandomSource, distance: float, low: float, high: float, reach: float = 5.0) -> Inputs:
     """With that cosine at the lamp."""
-    position, normal = draw.point(5), draw.direction()
+    position, normal = draw.point(reach), draw.direction()
     back = draw.above(normal, low, high)
     return {
         "area_pdf": Real(draw.logarithmic(0.05, 20)),
@@ -192,6 +192,21 @@ def _along(draw: RandomSource) -> Inputs:
     return {"area_pdf": Real(1.0), "from": Vec(from_), "position": Vec(position), "normal": Vec(normal)}
 
 
+_LEVEL = (2e-4, 8e-4)  # height over a surface, of a way of about 1: a cosine that a threshold of 0.001 takes for 0
+
+
+def _level_way(draw: RandomSource, normal: Vector) -> Vector:
+    """From a place at the centre of the world, whose surface has an axis for its normal: nothing loses digits."""
+    along = times(draw.sign() * draw.real(0.5, 2), next_axis(normal))
+    return rounded(add(along, normal, draw.logarithmic(*_LEVEL)))
+
+
+def _nearly_along(draw: RandomSource) -> Inputs:
+    normal = draw.axis()
+    from_, area_pdf = _level_way(draw, normal), Real(draw.logarithmic(0.05, 20))
+    return {"area_pdf": area_pdf, "from": Vec(from_), "position": Vec((0.0, 0.0, 0.0)), "normal": Vec(normal)}
+
+
 _SOLID_ANGLE_PDF = Function(
     "solid_angle_pdf",
     _PDF,
@@ -201,6 +216,8 @@ _SOLID_ANGLE_PDF = Function(
         Group("straight before it", lambda d: _seen(d, d.real(0.5, 8), 0.999, 1.0)),
         Group("at a slant", lambda d: _seen(d, d.real(0.5, 8), 0.03, 0.2)),
         Group("near and far", lambda d: _seen(d, d.logarithmic(1, 1000), 0.2, 0.99)),
+        Group("very near", lambda d: _seen(d, d.logarithmic(0.003, 0.02), 0.2, 0.99, reach=1.0)),
+        Group("nearly along the lamp", _nearly_along),
         Group("from behind", lambda d: _seen(d, d.real(0.5, 8), -0.99, -0.05)),
         Group("along the lamp", _along, exact=True),
     ),
@@ -254,6 +271,20 @@ def _dark_wall(draw: RandomSource) -> Inputs:
     return {**inputs, "hit": replace(hit, fill=replace(hit.fill, kd=draw.real(0.0, 0.1), ks=1.0, shine=3.0))}
 
 
+def _brought_from_level(draw: RandomSource) -> Inputs:
+    """By a lamp that lies nearly in the plane of the surface."""
+    normal = draw.axis()
+    hit = Hit((0.0, 0.0, 0.0), normal, times(-1.0, draw.above(normal, 0.2, 0.95)), 2.0, draw.fill())
+    way = _level_way(draw, normal)
+    return {
+        "hit": hit,
+        "radiance": Vec(draw.color(10, 100)),
+        "position": Vec(way),
+        "normal": Vec(rounded(unit(times(-1.0, way)))),
+        "pdf": Real(draw.logarithmic(0.05, 0.2)),
+    }
+
+
 _SAMPLED_LIGHT = Function(
     "sampled_light",
     _COLOR,
@@ -261,8 +292,9 @@ _SAMPLED_LIGHT = Function(
         Group("any sample", lambda d: _brought(d, 0.05, 0.99)),
         Group("simple numbers", _simple_brought),
         Group("at a slant", lambda d: _brought(d, 0.02, 0.15)),
+        Group("nearly along the surface", _brought_from_level),
         Group("a dark mirror", _dark_wall),
-        Group("a low density", lambda d: _brought(d, 0.2, 0.99, pdf=d.logarithmic(1e-3, 0.05))),
+        Group("a low density", lambda d: _brought(d, 0.2, 0.99, pdf=d.logarithmic(1e-5, 0.05))),
         Group("below the surface", lambda d: _brought(d, -0.99, -0.05)),
         Group("no density", lambda d: _brought(d, 0.2, 0.99, pdf=0.0), exact=True),
     ),
