@@ -165,7 +165,7 @@ def _too_early(draw: RandomSource, _surfaces: Scene, ray: Ray) -> float:
 
 def _close_to_the_lid(draw: RandomSource, _surfaces: Scene, ray: Ray) -> float:
     """The distance ends closely before the lid, or closely behind it."""
-    return f32(_to_the_lid(ray) * (1 + draw.logarithmic(3e-4, 0.01) * draw.sign()))
+    return f32(_to_the_lid(ray) * (1 + draw.logarithmic(3e-4, 2e-3) * draw.sign()))
 
 
 def _exactly_there(draw: RandomSource, _surfaces: Scene, ray: Ray) -> float:
