@@ -14,6 +14,7 @@ from raysteps.common.process import Outcome, run
 from raysteps.course.manifest import kit_steps
 from raysteps.course.project import Project
 from raysteps.images.compare import PictureError, compare, read_ppm
+from raysteps.play.packages import CACHE_VARIABLE
 from raysteps.toolchain.cmake import BuildTree, what_failed
 from tools.selftest.checks import Check, Report
 from tools.selftest.stamps import FileFilter
@@ -215,8 +216,9 @@ def fuzz_checks(project: Project, inputs: Inputs) -> list[Check]:
 
 
 def use_caches() -> None:
-    """From here on, in this process and in those that it starts, also where these have another home; ccache in the
-    user's own cache. Nothing is different but the time. Another launcher that somebody chose stays."""
+    """From here on, in this process and in those that it starts, also where these have another home; ccache, and what
+    the page to work in is made of, in the user's own cache. Nothing is different but the time. Another launcher that
+    somebody chose stays."""
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if ccache := shutil.which("ccache"):
         os.environ.setdefault("CMAKE_CXX_COMPILER_LAUNCHER", "ccache")
@@ -224,6 +226,8 @@ def use_caches() -> None:
         asked = subprocess.run([ccache, "--get-config", "cache_dir"], capture_output=True, check=False, text=True)
         if folder := asked.stdout.strip():
             os.environ.setdefault("CCACHE_DIR", folder)
+    caches = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    os.environ.setdefault(CACHE_VARIABLE, str(caches / "raysteps" / "play"))
 
 
 # Programs for Windows: compiled here by MinGW-w64, run by Wine.

@@ -15,7 +15,7 @@ from raysteps.common.errors import UsageError
 from raysteps.common.files import file_lock
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.play.packages import CLANG, fetch
+from raysteps.play.packages import CLANG, cache_of, fetch
 from raysteps.play.web_clang import WebClang
 from raysteps.play.web_kit import WebKit
 from raysteps.release.leaks import LIVE_PROGRAM
@@ -99,7 +99,7 @@ def check_live(project: Project) -> None:
 
 def make_live_figures(project: Project, registry: str, say: Callable[[str], None]) -> LiveFigures:
     """With the compiler of the page to work in, which is made ready where it has never run."""
-    cache, far = project.build / "play", rate_limited(say)
+    cache, far = cache_of(project), rate_limited(say)
     with file_lock(cache / ".lock", lambda: say("waiting for another command")):
         clang = WebClang(fetch(CLANG, cache / "packages", registry, far), cache, say)
         program = WebKit(project, clang, far).figures().read_bytes()

@@ -107,7 +107,8 @@ _WRONG = {
 }
 _BEGIN = "#include <algorithm>\n#include <glm/glm.hpp>\n#include <optional>\n#include <vector>\n"
 _BEGIN += "struct Hit { float distance; float twice() const; };\n"
-_COMPILERS = [name for name in ("g++", "clang++", "clang++-14") if shutil.which(name)]
+_FOUND = {name: path for name in ("g++", "clang++", "clang++-14") if (path := shutil.which(name))}
+_COMPILERS = list({Path(path).resolve(): name for name, path in _FOUND.items()}.values())  # each once
 
 
 @pytest.mark.parametrize("wrong", _WRONG)

@@ -40,10 +40,12 @@ def start_class(*words: str | Path) -> "subprocess.Popen[str]":
 
 
 def grade_class(*words: str | Path | int, console: Console | None = None) -> int:
-    """As the command line, but with the fake grader."""
+    """As the command line, but with the fake grader, in one process where the words do not say how many."""
     parser = argparse.ArgumentParser()
     add_arguments(parser)
     arguments = parser.parse_args([str(word) for word in words])
+    if arguments.jobs is None and not (arguments.scheduler or arguments.merge):
+        arguments.jobs = 1
     return run(here(), arguments, console or Console(width=150), grader=FAKE)
 
 

@@ -129,6 +129,8 @@ class Typist:
             words = [*words, "--impl", "reference"]  # nobody knows what the steps are there, or has built the copy's
         if name in _SMALL and "--new" not in words:
             words = [*words, *_SMALL[name]]
+        if words[:2] == ["grade", "grader/samples/complete"] and "--only" not in words:
+            words = [*words, "--only", "1"]  # `demo` grades all of it
         start = [sys.executable, "-P", "-m", "raysteps"]
         if name == "view":
             if not _can_view(self.workshop.original):

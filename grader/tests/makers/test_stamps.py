@@ -265,6 +265,7 @@ def _pytest(project: Project, monkeypatch: pytest.MonkeyPatch, *more: str) -> tu
 
 def test_only_files_of_tests_that_may_end_otherwise_are_run(small: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(selftest_checks, "_PYTEST_SECONDS", 300)
+    monkeypatch.setattr(selftest_checks, "processor_count", lambda: 1)
     tests = small.root / "grader" / "tests"
     for path in tests.glob("test_*.py"):
         path.unlink()

@@ -179,6 +179,22 @@ def test_what_is_compiled_anew_has_read_what_changed(tmp_path: Path) -> None:
     assert made()[0] == ["a.cpp", "b.cpp"], "where it was looked for, too"
 
 
+@pytest.mark.usefixtures("include")
+def test_two_kits_that_take_turns_compile_nothing_anew(tmp_path: Path) -> None:
+    """As a students' kit and the whole one, which share a cache: one reads a header that the other does not have."""
+    (tmp_path / "framework").mkdir()
+    (tmp_path / "framework" / "a.cpp").write_text(_include("a"))
+    clang, compiled = _Clang(tmp_path), []
+    for text in ("whole", _include("c"), "whole", _include("c")):
+        (tmp_path / "framework" / "a.hpp").write_text(text)
+        (tmp_path / "framework" / "c.hpp").write_text("c")
+        clang.compiled.clear()
+        made = WebKit(Project(tmp_path), clang)._made(ObjectRequest(Source("framework/a.cpp")))
+        assert made.read_text().startswith(f"{_include('a')}{text}")
+        compiled.append(len(clang.compiled))
+    assert compiled == [1, 1, 0, 0]
+
+
 def test_what_a_compiler_has_looked_for(tmp_path: Path) -> None:
     ray, own = tmp_path / "framework/core/ray.hpp", tmp_path / "steps/01-y/y.hpp"
     for path, text in ((ray, "#include <vector>\n"), (own, '#if __has_include("a/b.hpp")\n')):

@@ -9,7 +9,7 @@ from play_pages import with_packages
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
 from raysteps.images.compare import parse_ppm, pixel_differences
-from raysteps.play.packages import CLANG, fetch, registry_of
+from raysteps.play.packages import CLANG, cache_of, fetch, registry_of
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import ObjectRequest, WebKit
 from raysteps.release.build_release import first_steps, write_release
@@ -92,7 +92,7 @@ int main() {
 
 @pytest.fixture(scope="module")
 def clang(project: Project) -> WebClang:
-    cache = project.build / "play"
+    cache = cache_of(project)
     with with_packages():
         return WebClang(fetch(CLANG, cache / "packages", registry_of(None)), cache)
 

@@ -21,6 +21,7 @@ from pathlib import Path
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_bytes, write_json
 from raysteps.common.text import shorten
+from raysteps.course.project import Project
 
 REGISTRY = "https://registry.npmjs.org"
 _SECONDS = 60  # without a byte
@@ -256,6 +257,14 @@ def fetch_header(header: Header, target: Path, say: Callable[[str], None] = lamb
 
 _RECORD = "used.json"
 _PAGES, _PAGES_OF_OBJECTS = 2, 4
+
+
+CACHE_VARIABLE = "RAYSTEPS_PLAY_CACHE"
+
+
+def cache_of(project: Project) -> Path:
+    """Where the compiler and what it made lie: in the build folder, or where the variable says, for several clones."""
+    return Path(os.environ.get(CACHE_VARIABLE) or project.build / "play")
 
 
 def clear(cache: Path, used: Iterable[Path]) -> None:

@@ -36,7 +36,7 @@ from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.noise import read_estimates, with_samples
 from raysteps.images.render import ENDLESS, reference_image_path, stored_parts
-from raysteps.play.packages import CLANG, EDITOR, clear, fetch, written_once
+from raysteps.play.packages import CLANG, EDITOR, cache_of, clear, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import MAX_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
@@ -218,7 +218,7 @@ class PlayPage:
         self._registry = registry
         self._say_once = say
         self._say = rate_limited(say)
-        self._cache = cache or project.build / "play"
+        self._cache = cache or cache_of(project)
         self._packages = self._cache / "packages"
         self._clang = WebClang(fetch(CLANG, self._packages, registry, self._say), self._cache, say)
         self._kit = WebKit(project, self._clang, self._say)

@@ -58,6 +58,7 @@ MAX_AT_ONCE = min(4, processor_count())  # each takes some 300 MB
 _COMMON = "algorithm cmath filesystem functional map memory optional sstream string variant vector core/scene.hpp"
 _KIT_HEADERS = "".join(f"#include <{header}>\n" for header in _COMMON.split())
 _PORTABLE = ("-fno-pch-timestamp", "-fpch-instantiate-templates")  # the same for the same headers, wherever they lie
+_MOST_LISTS = 4  # of headers that one source may have read
 _TEST_HEADERS = "#include <testing/testing.hpp>\n"
 
 
@@ -267,10 +268,13 @@ class WebKit:
 
     def _compiled(self, ending: str, words: Sequence[str], path: str, text: str) -> Path:
         """What the compiler makes of a source with this text: anew when the text has changed, or a header that it read
-        the last time, or where one is now that would have been found before."""
+        before, or where one is now that would have been found before. A students' kit has other headers than the whole
+        one: what was made of several is kept."""
         listed = self._kept("headers", self._common_mark, path, text, *words)
-        target = self._by_headers(listed, ending) if listed.is_file() else None
-        if target is None or not target.is_file():
+        lists = listed.read_text("utf-8").split("\n\n") if listed.is_file() else []
+        found = (self._by_headers(listed, names, ending) for names in lists)
+        target = next((one for one in found if one.is_file()), None)
+        if target is None:
             with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
                 if path.startswith(f"{_WORK}/"):
                     (Path(folder) / Path(path).name).write_text(text, encoding="utf-8", newline="\n")
@@ -278,16 +282,17 @@ class WebKit:
                 more = ["-dependency-file", f"{_WORK}/read", "-MT", "made"]
                 command = [*(named.get(word, word) for word in words), *more]
                 self._clang.make(command, {**self._places, _WORK: Path(folder)})
-                names = dependencies_of(self._project.root, (Path(folder) / "read").read_text("utf-8"))
-                write_bytes(listed, "".join(f"{name}\n" for name in names).encode())
-                target = self._by_headers(listed, ending)
+                names = "\n".join(dependencies_of(self._project.root, (Path(folder) / "read").read_text("utf-8")))
+                others = [one for one in lists if one != names]
+                write_bytes(listed, "\n\n".join([names, *others][:_MOST_LISTS]).encode())
+                target = self._by_headers(listed, names, ending)
                 write_bytes(target, (Path(folder) / "made").read_bytes())
         self._used.add(target.with_suffix(""))
         return target
 
-    def _by_headers(self, listed: Path, ending: str) -> Path:
-        """Where what was made with these headers lies."""
-        marks = [f"{name} {self._header_mark(name)}" for name in listed.read_text("utf-8").splitlines()]
+    def _by_headers(self, listed: Path, names: str, ending: str) -> Path:
+        """Where what was made with headers of these names lies."""
+        marks = [f"{name} {self._header_mark(name)}" for name in names.splitlines()]
         return self._place(_digest(listed.stem, *marks), ending)
 
     @cached_property
