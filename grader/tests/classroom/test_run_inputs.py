@@ -1,6 +1,7 @@
 """A roster and a late policy that were given once are used again, until others or none are given."""
 
 import csv
+import json
 import os
 import shlex
 import sqlite3
@@ -68,6 +69,10 @@ def test_both_are_used_again(course: Class, capsys: pytest.CaptureFixture[str], 
         said = capsys.readouterr().err
         assert f"the roster (3 students) of the last run in {course.out} is used again; --roster FILE" in said
         assert f"the late policy of the last run in {course.out} is used again; --late-policy FILE" in said
+    assert course.grade(*how, *course.both()) == 0
+    with closing(sqlite3.connect(course.out / "class.sqlite")) as connection:
+        kept = [json.loads(text) for (text,) in connection.execute("SELECT files FROM given")]
+    assert all(sorted(files) == [str(course.policy), str(course.roster)] for files in kept), "each once"
 
 
 def test_each_can_be_dropped(course: Class, capsys: pytest.CaptureFixture[str]) -> None:

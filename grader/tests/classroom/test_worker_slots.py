@@ -2,13 +2,16 @@
 
 import threading
 import time
+from types import SimpleNamespace
 
 import pytest
 from fake_grader import FAKE
 
 from raysteps.classroom import cluster as cluster_task
+from raysteps.classroom import local_pool
 from raysteps.classroom.jobs import Job, JobResult, to_line
 from raysteps.classroom.worker import JobRunner
+from raysteps.common.errors import GraderFault
 from raysteps.course.settings import COURSE_VARIABLE
 from raysteps.results.model import Settings
 from raysteps.submission.load import Submission
@@ -73,6 +76,37 @@ def test_what_may_make_two_kits_differ_is_named() -> None:
     assert "is fake-kit, but the class is graded with another-kit; install the same version of the kit" in fault
     assert "give all the same course.toml" in fault
     assert COURSE_VARIABLE in fault
+
+
+def test_a_process_whose_answer_came_just_before_its_end_gets_no_other_job(monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[SimpleNamespace] = []
+
+    def process() -> SimpleNamespace:
+        def ask(job: Job) -> JobResult:
+            one.is_overtime = True
+            return JobResult(job.submission.name, "fault", fault="none")
+
+        one = SimpleNamespace(ask=ask, is_overtime=False, clean_up=lambda: None)
+        made.append(one)
+        return one
+
+    monkeypatch.setattr(local_pool, "GradingProcess", process)
+    slot = local_pool.Slot()
+    job = Job(Submission("a", {}, {}, {}), Settings(), "a:b", "kit", False, "one")
+    assert [slot.grade(job).fault for _ in range(2)] == ["none", "none"]
+    assert len(made) == 2
+
+
+def test_a_scheduler_that_goes_while_kits_are_compared_is_told() -> None:
+    pytest.importorskip("distributed")
+
+    def gone() -> None:
+        raise OSError("timed out")
+
+    cluster = object.__new__(cluster_task.Cluster)
+    cluster._address, cluster._client = "tcp://head:8786", SimpleNamespace(nthreads=gone)
+    with pytest.raises(GraderFault, match="head:8786 is gone; what was graded is kept, and --resume goes on"):
+        cluster_task.check_kits(cluster._client, "kit", "a:b", cluster._workers, require_sandbox=False)
 
 
 def test_a_slot_is_kept_for_the_next_job(monkeypatch: pytest.MonkeyPatch) -> None:

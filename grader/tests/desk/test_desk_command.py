@@ -5,13 +5,17 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from class_fakes import grade_class, write_entry
 
 from raysteps.classroom.database import LOCK
+from raysteps.cli import desk
 from raysteps.cli.app import main
+from raysteps.common.errors import GraderFault
 from raysteps.common.files import try_lock
 
 pytestmark = pytest.mark.usefixtures("fake_grader")
@@ -78,6 +82,21 @@ def test_while_something_else_is_at_work_the_way_to_write_later_is_named(
     for words in (told.out, " ".join(told.err.split())):
         assert "something else is at work there" in words
         assert f"./raysteps desk {grades} --write" in words
+
+
+def test_files_that_could_not_be_written_are_a_fault(
+    grades: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted(_wait: threading.Event) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(desk, "end_as_interrupted", lambda: None)
+    monkeypatch.setattr(threading.Event, "wait", interrupted)
+    writer = SimpleNamespace(state="failed", trouble="the disk is full")
+    monkeypatch.setattr(desk, "Desk", lambda *_: SimpleNamespace(writer=writer, close=lambda: None))
+    monkeypatch.setattr(desk, "DeskServer", lambda *_: SimpleNamespace(address="here", close=lambda: None))
+    assert main(["desk", str(grades), "--no-open"]) == GraderFault.exit_code
+    assert "The files could not be written: the disk is full." in capsys.readouterr().out
 
 
 def test_a_folder_without_a_class_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

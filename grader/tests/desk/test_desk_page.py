@@ -182,6 +182,23 @@ def test_a_request_and_its_answer(pages: Watched, server: DeskServer, grades: Pa
     assert _results(grades, server)["steps"][0]["review"]["requests"][0]["answer"] == "It was."
 
 
+def test_a_request_about_a_step_that_was_not_graded_stands_with_the_whole(
+    pages: Watched, server: DeskServer, grades: Path
+) -> None:
+    asked = {"kind": "request", "author": "Ada", "step": "14-materials", "text": "and this one?"}
+    server.desk.say("ann", asked)
+    page = _open(pages, server, "ann")
+    assert page.locator(".desk-card").count() == 0
+    _press(page, "a")
+    card = page.locator(".desk-card", has_text="and this one?")
+    assert "On 14-materials, which was not graded this time." in card.inner_text()
+    page.keyboard.type("Later.")
+    _press(page, "Control+Enter")
+    page.locator(".badge", has_text="request: answered").wait_for()
+    (thread,) = server.desk.submission("ann")["threads"]
+    assert (thread["step"], thread["answer"]) == ("14-materials", "Later.")
+
+
 def test_by_mouse_at_a_line_and_dropped_again(pages: Watched, server: DeskServer, grades: Path) -> None:
     page = _open(pages, server, "ann")
     page.locator(".desk-lines li:nth-child(4) .line-number").click()

@@ -208,6 +208,18 @@ def test_what_is_wrong_is_said(server: DeskServer, grades: Path, said: object, w
     assert _amount(grades) == 0
 
 
+def test_a_fault_of_the_desk_is_told_on_the_page_and_on_the_terminal(
+    server: DeskServer, desk: Desk, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def overview() -> None:
+        raise KeyError("no such key")
+
+    monkeypatch.setattr(desk, "overview", overview)
+    told = _ask(server, "class")
+    assert (told.status, told.json["error"]) == (500, "The desk has a fault: its terminal says which.")
+    assert "KeyError: 'no such key'" in capfd.readouterr().err
+
+
 def test_two_at_once_hear_of_each_other(server: DeskServer, grades: Path) -> None:
     first = {"kind": "points", "author": "Ada", "text": "x", "step": _STEP, "points": 5}
     with closing(Desk(grades, "Bob")) as other:

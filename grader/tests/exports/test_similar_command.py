@@ -102,6 +102,12 @@ def test_copies_are_told_to_be_the_same_however_little_they_hold(
     assert f"{int(100 * pair.likeness)} %" not in text
 
 
+def test_a_share_is_rounded_as_it_is_written() -> None:
+    for percent in range(101):
+        assert similar._percent(percent / 100) == similar._percent_at_most(percent / 100) == percent
+    assert (similar._percent(0.2899), similar._percent_at_most(0.2901)) == (28, 30)
+
+
 def test_an_earlier_term_is_compared_with_this_one_only(places: Path, tmp_path: Path) -> None:
     facts = tmp_path / "similar.json"
     words = ["--before", str(places / "lastyear"), "--out", str(tmp_path / "page.html"), "--json", str(facts)]

@@ -4,13 +4,14 @@ import bz2
 import io
 import lzma
 import marshal
+import zipfile
 import zlib
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
-from raysteps.release.leaks import find_leaks, unexpected_content
+from raysteps.release.leaks import find_leaks, pieces, unexpected_content
 from raysteps.release.secrets import NgramIndex, Secrets
 
 pytestmark = pytest.mark.portable
@@ -74,6 +75,15 @@ def _with_chunk(kind: bytes, body: bytes) -> bytes:
 )
 def test_a_picture_that_holds_something_else(data: bytes) -> None:
     assert "more than a picture" in (unexpected_content(data) or "")
+
+
+def test_an_archive_that_is_damaged_ends_no_search() -> None:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_LZMA) as archive:
+        archive.writestr("a.txt", _TEXT)
+    data = bytearray(packed.getvalue())
+    data[30 + len("a.txt") + 4] = 0xFF  # what LZMA was packed with
+    assert [piece.place for piece in pieces("a.zip", bytes(data))] == ["a.zip"]
 
 
 def test_a_place_that_tells_what_it_is(tmp_path: Path) -> None:

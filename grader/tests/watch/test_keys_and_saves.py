@@ -6,6 +6,8 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from queue import Queue
+from unittest.mock import MagicMock
 
 import pytest
 import watch_fakes
@@ -15,7 +17,9 @@ from watch_fakes import wait_for
 
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
+from raysteps.watch.events import Event, FileVanished, Key
 from raysteps.watch.keyboard import letters
+from raysteps.watch.session import Session
 
 _TIMEOUT = 90
 _FAKES = Path(watch_fakes.__file__)
@@ -178,3 +182,15 @@ _TYPED = {
 @pytest.mark.parametrize(("typed", "keys"), _TYPED.items())
 def test_what_counts_as_a_key(typed: str, keys: str) -> None:
     assert letters(typed) == list(keys)
+
+
+@pytest.mark.parametrize("event", [Key("n"), FileVanished("a.cpp")])
+def test_a_check_that_was_asked_for_is_of_the_step_that_it_was_asked_for(
+    course: Project, steps: list[Step], event: Event
+) -> None:
+    session = Session(course, steps[0], Queue(), *(MagicMock() for _ in range(6)), checks=False)
+    session.look("watching")
+    session._handle(Key("c"))
+    assert session.check_after_look
+    session._handle(event)
+    assert not session.check_after_look

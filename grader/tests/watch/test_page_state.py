@@ -130,6 +130,8 @@ def test_odd_names_are_quoted_and_what_inspect_does_not_know_is_left_out(steps: 
     wanted = "./raysteps inspect 'a b.nff' {x} {y} --step 1 --against reference"
     assert inspect_command("odd", odd, has_reference=True) == wanted
     assert inspect_command("other", odd, has_reference=True) is None
+    bare = replace(steps[0], images=(replace(case, args=()),))
+    assert inspect_command("odd", bare, has_reference=False) == "./raysteps inspect 'a b.nff' {x} {y}"
 
 
 @pytest.mark.parametrize(

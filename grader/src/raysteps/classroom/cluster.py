@@ -3,7 +3,7 @@
 import logging
 import re
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from typing import Any
 
@@ -63,13 +63,16 @@ def stop_run(run: str) -> None:
 _LOOK_SECONDS = 2
 
 
-def check_kits(client: Any, kit: str, grader: str, *, require_sandbox: bool) -> None:
-    """Another kit would give other grades: better to learn that before anything is graded."""
+def check_kits(
+    client: Any, kit: str, grader: str, workers: Callable[[], Iterable[str]], *, require_sandbox: bool
+) -> None:
+    """Another kit would give other grades: better to learn that before anything is graded. `workers` gives the
+    addresses of those that are there."""
     import distributed
 
     asked = {
         worker: client.submit(kit_of, grader, require_sandbox, workers=[worker], allow_other_workers=False, pure=False)
-        for worker in client.nthreads()
+        for worker in workers()
     }
     problems = []
     while asked:
@@ -77,7 +80,7 @@ def check_kits(client: Any, kit: str, grader: str, *, require_sandbox: bool) -> 
             try:
                 found = future.result(timeout=_LOOK_SECONDS)
             except (TimeoutError, distributed.TimeoutError):
-                if worker in client.nthreads():
+                if worker in workers():
                     continue
                 found = kit  # it is gone, and checks nothing any more
             except Exception as error:
@@ -184,7 +187,7 @@ class Cluster:
         import distributed
 
         self._wait_for_workers()
-        check_kits(self._client, self._kit, self._grader, require_sandbox=self._require_sandbox)
+        check_kits(self._client, self._kit, self._grader, self._workers, require_sandbox=self._require_sandbox)
         left = True
         while left or self._jobs:
             room = 2 * sum(self._workers().values()) + 1

@@ -34,7 +34,7 @@ class GradingProcess:
         self._scratch = Path(tempfile.mkdtemp(prefix="raysteps-class-"))
         self._scratch.chmod(0o711)  # a sandbox may run as another user
         self._log = (self._scratch / "stderr.txt").open("w+b")
-        self._overtime = False
+        self.is_overtime = False  # then it was ended, or is being ended
         try:
             self._process = subprocess.Popen(
                 [sys.executable, "-P", "-m", "raysteps.classroom.worker", str(self._scratch)],
@@ -50,12 +50,12 @@ class GradingProcess:
             raise
 
     def _end_overtime(self) -> None:
-        self._overtime = True
+        self.is_overtime = True
         kill_process_tree(self._process.pid)
 
     def ask(self, job: Job) -> JobResult:
-        """Waits for the answer; WorkerDied or Overtime when there will be none. Programs have limits of their own: the
-        one here is for a grader that hangs itself."""
+        """Waits for the answer; WorkerDied or JobTimeout when there will be none. Programs have limits of their own:
+        the one here is for a grader that hangs itself."""
         most_seconds = give_up_after(job.settings.limits)
         assert self._process.stdin is not None
         assert self._process.stdout is not None
@@ -69,8 +69,9 @@ class GradingProcess:
             line = self._process.stdout.readline()
         finally:
             timer.cancel()
+            timer.join()  # it may have begun to end the process
         if not line.endswith(b"\n"):
-            if self._overtime:
+            if self.is_overtime:
                 raise JobTimeout(gave_up(most_seconds))
             raise WorkerDied(self._why())
         return from_line(line, JobResult)
@@ -135,7 +136,11 @@ class Slot:
         deaths: list[str] = []
         for _ in range(_ATTEMPTS):
             try:
-                return self._running().ask(job)
+                process = self._running()
+                answer = process.ask(job)
+                if process.is_overtime:
+                    self._drop()  # its answer came just before its end
+                return answer
             except JobTimeout as overtime:
                 self._drop()
                 return JobResult(job.submission.name, "fault", fault=str(overtime))

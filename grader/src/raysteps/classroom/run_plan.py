@@ -214,7 +214,7 @@ class Plan:
             {"id": step.id, "title": step.title, "points": step.points, "bonus": step.bonus} for step in self.chosen
         ]
         folder = str(self.options.folder.resolve()).encode("utf-8", "backslashreplace").decode()
-        files = [os.path.realpath(path) for path in self.given.files]
+        files = dict.fromkeys(os.path.realpath(path) for path in self.given.files)  # each once
         return RunFacts(
             uid=self.uid,
             kit=kit,

@@ -12,7 +12,7 @@ from rich.console import Console
 from raysteps.classroom.database import FILE, ClassDatabase, explained_sqlite_errors
 from raysteps.classroom.session import undisturbed
 from raysteps.cli import port
-from raysteps.common.errors import UsageError
+from raysteps.common.errors import GraderFault, UsageError
 from raysteps.common.local_server import end_as_interrupted, on_a_desktop, shown_in_browser
 from raysteps.common.platform import kit_command, refuse_on_windows
 from raysteps.common.text import count, print_plain
@@ -57,7 +57,7 @@ def _busy(out: Path) -> str:
     return f"something else is at work there. When it has ended, {_anew(out)} makes the files anew."
 
 
-def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
+def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> int:
     desk = Desk(out, arguments.author or _login())
     try:
         server = DeskServer(desk, arguments.port)
@@ -83,6 +83,7 @@ def _serve(console: Console, out: Path, arguments: argparse.Namespace) -> None:
         "them anew.",
     }
     console.print(told[desk.writer.state], highlight=False, markup=False, soft_wrap=True)
+    return GraderFault.exit_code if desk.writer.state == "failed" else 0
 
 
 def _exchange(console: Console, out: Path, arguments: argparse.Namespace) -> int:
@@ -115,5 +116,4 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         console.print(f"Written: {out}", highlight=False, markup=False, soft_wrap=True)
         return 0
     end_as_interrupted()
-    _serve(console, out, arguments)
-    return 0
+    return _serve(console, out, arguments)

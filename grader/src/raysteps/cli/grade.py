@@ -4,6 +4,7 @@ import argparse
 import hashlib
 import os
 import re
+import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -124,7 +125,10 @@ def _room(project: Project) -> Path:
     """For locks, and for results that nobody named a folder for: the kit's, or where it may only be read, as in an
     image, one that goes away with the container."""
     place = project.build if project.build.exists() else project.root
-    return project.build if os.access(place, os.W_OK) else Path(tempfile.gettempdir()) / "raysteps"
+    if os.access(place, os.W_OK):
+        return project.build
+    user = "" if sys.platform == "win32" else f"-{os.getuid()}"  # there everybody has a folder of his own
+    return Path(tempfile.gettempdir()) / f"raysteps{user}"
 
 
 def grade(project: Project, options: GradeOptions, console: Console) -> Results:

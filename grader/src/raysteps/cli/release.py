@@ -3,7 +3,6 @@
 import argparse
 import tempfile
 import zipfile
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import date
@@ -31,6 +30,7 @@ from raysteps.release.build_release import (
 from raysteps.release.leaks import Leak, find_leaks, leaks_in_history, not_searched
 from raysteps.release.secrets import Secrets, gather
 from raysteps.report.terminal import progress
+from raysteps.submission.archives import DAMAGED
 from raysteps.toolchain.build_kit import build_kit
 from raysteps.updater.release_list import FOLDERS
 
@@ -85,7 +85,7 @@ def _unpacked(place: Path) -> Iterator[Path]:
                 if len({name.lower() for name in names}) < len(names):
                     raise UsageError(f"{place}: holds two files of one name, so not all of it can be looked through")
                 archive.extractall(folder)
-        except (OSError, RuntimeError, NotImplementedError, zipfile.BadZipFile, zlib.error) as error:
+        except DAMAGED as error:
             raise UsageError(f"{place}: expected the folder of a release or of a page, or a zip of one") from error
         yield Path(folder)
 

@@ -221,6 +221,8 @@ def _page(
         "hardly_read": hardly_read,
         "why_hardly": _HARDLY_READ,
         "look_from": REVIEW_THRESHOLD,
+        "whole_percent": _percent,
+        "percent_at_most": _percent_at_most,
     }
     return render_page("similar", "Similar submissions", context, ("similar",), ("similar",))
 
@@ -257,9 +259,18 @@ def _document(
     )
 
 
+def _percent(share: float) -> int:
+    """Rounded down, but for the error of binary fractions: 100 * 0.29 is less than 29."""
+    return math.floor(round(100 * share, 9))
+
+
+def _percent_at_most(share: float) -> int:
+    return math.ceil(round(100 * share, 9))
+
+
 def _rank(likeness: float) -> str:
     """Without the sign of per cent: it is made smaller where there is little code, and so a share of nothing."""
-    return str(math.floor(100 * likeness))
+    return str(_percent(likeness))
 
 
 def _print(
@@ -270,7 +281,7 @@ def _print(
         table.add_column(heading, justify="left" if heading in ("first", "second") else "right", overflow="fold")
     for one in shown[:_FIRST]:
         names = [escape(printable(handed[at].name)) for at in (one.pair.first, one.pair.second)]
-        shares = [f"{math.floor(100 * share)} %" for share in (one.pair.whole.first, one.pair.whole.second)]
+        shares = [f"{_percent(share)} %" for share in (one.pair.whole.first, one.pair.whole.second)]
         table.add_row(
             *(_rank(one.pair.value), *names, one.pair.most[:2] or "all", *shares),
             *(f"{one.longest} words", f"{one.same} of {one.both}"),
@@ -278,8 +289,8 @@ def _print(
     console.print(table)
     console.print(
         f"{count(compared.to_review, 'pair')} of {compared.amount} from likeness {_rank(REVIEW_THRESHOLD)} on, which "
-        f"is worth a look; half of all have {math.ceil(100 * compared.median)} at most. Likeness is from 0 to 100, and "
-        "less where there is little code; the shares are per cent of one's own code.",
+        f"is worth a look; half of all have {_percent_at_most(compared.median)} at most. Likeness is from 0 to 100, "
+        "and less where there is little code; the shares are per cent of one's own code.",
         highlight=False,
     )
     console.print("A high number is a reason to look and to talk, never a verdict.", highlight=False)

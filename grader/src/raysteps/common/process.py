@@ -25,7 +25,7 @@ def new_session() -> dict[str, Any]:
     return {"start_new_session": True}
 
 
-def kill_process_group(process: "subprocess.Popen[bytes]") -> None:
+def kill_process_group(process: "subprocess.Popen[Any]") -> None:
     """The program, and what it started. On Windows what a program leaves behind that has ended by itself is not found
     again."""
     if sys.platform == "win32":

@@ -3,6 +3,7 @@
 import json
 import sqlite3
 import threading
+import traceback
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -396,6 +397,9 @@ class _Handler(LocalHandler):
             code, view = 400, {"error": str(error)}
         except sqlite3.Error as error:
             code, view = 500, {"error": f"the database of the class: {error}"}
+        except Exception:
+            traceback.print_exc()
+            code, view = 500, {"error": "The desk has a fault: its terminal says which."}
         self.answer(code, json.dumps(view, ensure_ascii=False), f"{JSON}; charset=utf-8")
 
 

@@ -123,17 +123,17 @@ class WebClang:
             linker = Linker(self._engine)
             linker.define_wasi()
             linker.define_func("page", "show_tile", FuncType([ValType.i32()] * 5, []), lambda *where: None)
-            code = 0
+            code, fault = 0, ""
             try:
                 start: Any = linker.instantiate(store, module).exports(store)["_start"]
                 start(store)
             except ExitTrap as end:
                 code = end.code
             except Trap as trap:
-                return ProgramResult(-1, "", f"{said[1].read_text('utf-8', 'replace')}{trap}")
+                code, fault = -1, str(trap)
             del store  # which closes the files
             stdout, stderr = (path.read_text("utf-8", "replace") if path.is_file() else "" for path in said)
-            return ProgramResult(code, stdout, stderr)
+            return ProgramResult(code, stdout, stderr + fault)
 
     def make(self, words: Sequence[str], places: Mapping[str, Path]) -> None:
         """Runs a program that has no reason to fail."""

@@ -16,6 +16,7 @@ from raysteps.common.files import PNG_SIGNATURE
 from raysteps.common.text import count, join_and
 from raysteps.release.page_parts import Problem, folder_of_page, is_part, look_into
 from raysteps.release.secrets import Secrets, words_in
+from raysteps.submission.archives import DAMAGED
 from raysteps.updater.release_list import CACHE, HISTORY, all_places
 
 # What a file of a release may be: text, or a PNG picture that is nothing else.
@@ -144,7 +145,7 @@ def _members(data: bytes) -> Iterator[tuple[str, bytes]]:
                     file = tar.extractfile(item)
                     if file is not None:
                         yield item.name, file.read(_MAX)
-    except (OSError, EOFError, RuntimeError, zlib.error, zipfile.BadZipFile, tarfile.TarError):
+    except DAMAGED:
         return
 
 

@@ -69,7 +69,7 @@ def inspect_command(name: str, step: Step | None, *, has_reference: bool) -> str
         return None
     start = quote_command([case.scene])
     line = kit_command(*_inspect_words(case, 0, 0, has_reference))
-    return line.replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1)
+    return f"{line} ".replace(f" {start} 0 0 ", f" {start} {{x}} {{y}} ", 1).rstrip()
 
 
 def inspect_worst(step: Step, image: ImageResult, out: Path) -> list[str] | None:

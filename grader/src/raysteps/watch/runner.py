@@ -38,22 +38,15 @@ class _Process:
     folder: Path
     errors: IO[str]
 
-    def signal(self, number: int) -> None:
-        """Its whole group: the keepers of its sandbox end what they started."""
-        with suppress(OSError):
-            if hasattr(os, "killpg"):
-                os.killpg(self.popen.pid, number)
-            else:
-                self.popen.terminate()
-
     def end(self) -> None:
-        """Also the folder: a worker that was stopped could not clear it."""
-        if self.popen.poll() is None:
-            self.signal(signal.SIGTERM)
-            with suppress(subprocess.TimeoutExpired):
+        """With its group, in which the keepers of its sandbox end what they started, and its folder: a worker that was
+        stopped could not clear it."""
+        if sys.platform != "win32" and self.popen.poll() is None:
+            with suppress(OSError, subprocess.TimeoutExpired):
+                os.killpg(self.popen.pid, signal.SIGTERM)
                 self.popen.wait(_GRACE_SECONDS)
         if self.popen.poll() is None:
-            self.signal(getattr(signal, "SIGKILL", signal.SIGTERM))
+            kill_process_group(self.popen)
             self.popen.wait()
         for stream in (self.popen.stdin, self.errors):
             with suppress(OSError):
@@ -91,7 +84,7 @@ class Runner:
             encoding="utf-8",
             errors="replace",
             env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder)),
-            start_new_session=True,
+            **new_session(),
         )
         return _Process(popen, folder, errors)
 

@@ -235,6 +235,7 @@ class Session:
 
     def go_to(self, step: Step) -> None:
         self._runner.stop()
+        self.check_after_look = False
         self.saves.look_at(step)
         self.view = StepView(step)
         self._source = self._own_source()
@@ -275,7 +276,7 @@ class Session:
         self._runner.stop()
         self.inspection.stop()
         self._held.clear()
-        self._check_at = None
+        self._check_at, self.check_after_look = None, False
         self.view = StepView(self.view.step, "idle", saved=self.view.saved, gone=True, hints=self.view.hints)
         self.showing.result(self.view)
         self.show()

@@ -26,7 +26,7 @@ class DeskSubmission {
     const same = this.view !== null && this.name === view.row.name;
     const at = same && this.code ? this.code.at : 0;
     this.view = view;
-    const known = view.steps.some(({ id }) => id === this.step) || this.step === deskWhole;
+    const known = this.hasTab(this.step) || this.step === deskWhole;
     if (!same && (!known || this.step === deskWhole)) {
       this.step = view.steps.find(({ code }) => code.length)?.id ?? deskWhole;
     } else if (!known) {
@@ -45,6 +45,17 @@ class DeskSubmission {
 
   threads(kind, step = this.step) {
     return this.view.threads.filter((one) => one.kind === kind && one.step === step);
+  }
+
+  hasTab(step) {
+    return this.view.steps.some(({ id }) => id === step);
+  }
+
+  /** What was said of the step; with the whole also what is about a step that has no tab now. */
+  talkThreads(kind) {
+    return this.view.threads.filter(
+      (one) => one.kind === kind && (this.hasTab(one.step) ? one.step : deskWhole) === this.step,
+    );
   }
 
   draw() {
@@ -105,18 +116,18 @@ class DeskSubmission {
     const tab = (id, words, tone, key) =>
       makeButton(
         words,
-        { class: `desk-tab ${tone}`, "aria-pressed": String(id === this.step), "aria-keyshortcuts": key },
+        { class: `desk-tab ${tone}`, "aria-pressed": String(id === this.step), "aria-keyshortcuts": key < 10 && key },
         () => this.choose(id),
       );
     const tabs = this.view.steps.map(({ id, number, points, max, status }) =>
-      tab(id, `${number} ${status.sign} ${points} of ${max}`, status.tone, String(Number(number))),
+      tab(id, `${number} ${status.sign} ${points} of ${max}`, status.tone, Number(number)),
     );
     tabs.forEach((button, at) => {
       const { title, status } = this.view.steps[at];
       button.append(make("span", { class: "hidden-text" }, `, ${title}: ${status.words}`));
     });
     const nav = make("nav", { class: "desk-tabs", "aria-label": "Steps" }, ...tabs);
-    nav.append(tab(deskWhole, "Whole", "", "0"));
+    nav.append(tab(deskWhole, "Whole", "", 0));
     return nav;
   }
 
@@ -206,8 +217,8 @@ class DeskSubmission {
 
   /** Comments that are at no line, and requests. */
   talk() {
-    const free = this.threads("comment").filter(({ line, withdrawn }) => !line || withdrawn);
-    const requests = this.threads("request");
+    const free = this.talkThreads("comment").filter(({ line, withdrawn }) => !this.step || !line || withdrawn);
+    const requests = this.talkThreads("request");
     const buttons = make(
       "div",
       { class: "desk-buttons" },
@@ -225,6 +236,9 @@ class DeskSubmission {
       parts.push(
         make("p", {}, make("span", { class: `badge ${state === "open" ? "warn" : ""}` }, `request: ${state}`)),
       );
+    }
+    if (thread.step !== this.step) {
+      parts.push(make("p", { class: "muted small" }, `On ${thread.step}, which was not graded this time.`));
     }
     parts.push(make("p", { class: "said" }, thread.text));
     if (thread.answer) {
@@ -559,7 +573,7 @@ class DeskSubmission {
     } else if (key === "a") {
       const open = this.view.threads.find(({ kind, answer, withdrawn }) => kind === "request" && !answer && !withdrawn);
       if (open) {
-        this.choose(open.step);
+        this.choose(this.hasTab(open.step) ? open.step : deskWhole);
         this.edit(open);
       }
     } else if (key === "l") {
