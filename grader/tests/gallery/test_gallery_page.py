@@ -181,6 +181,7 @@ def test_another_scene_brings_its_own_pictures(open_page: OpenPage, gallery: Pat
     assert _shown(page) == _colours(1, 0, 7)
     assert page.get_attribute(".thumb img >> nth=3", "src") != first
     assert page.inner_text("#scene-words") == "About scene 1."
+    assert (page.get_attribute("#picture .compare-stage", "aria-label") or "").startswith("scene 1: ")
     page.keyboard.press("s")
     assert _shown(page) == _colours(0, 0, 7)
 

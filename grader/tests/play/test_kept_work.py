@@ -99,6 +99,38 @@ def test_what_is_typed_just_before_the_page_goes_is_kept(page: "Page") -> None:
     expect(page.locator("#play-kept")).to_be_empty()
 
 
+# A browser without room: it takes a text, and cannot write it.
+_FULL = """isFull => {
+    const full = IDBObjectStore.prototype;
+    full.taken ??= full.put;
+    full.put = isFull ? function put(...what) {
+        const request = this.taken(...what);
+        this.transaction.abort();
+        return request;
+    } : full.taken;
+}"""
+
+
+def test_what_cannot_be_kept_is_told_and_tried_again(page: "Page", tmp_path: Path) -> None:
+    from playwright.sync_api import expect
+
+    kept = page.locator("#play-kept")
+    page.evaluate(_FULL, True)
+    write(page, "// not kept\n")
+    expect(kept).to_contain_text("Not kept: this browser cannot")
+    page.locator("#play-step").select_option("02")
+    status_says(page, r"Step 02 is not opened: what you wrote here would be lost\.")
+    expect(page.locator("#play-step")).to_have_value("01")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save as zip").click()
+    download.value.save_as(tmp_path / "my-steps.zip")
+    with zipfile.ZipFile(tmp_path / "my-steps.zip") as archive:
+        assert archive.read(archive.namelist()[0]) == b"// not kept\n"
+    page.evaluate(_FULL, False)
+    page.keyboard.press("ControlOrMeta+s")
+    expect(kept).to_have_text("Kept in this browser.")
+
+
 def test_one_tab_writes_and_the_other_reads(page: "Page", server: PlayServer, solved: dict[str, str]) -> None:
     from playwright.sync_api import expect
 

@@ -87,16 +87,18 @@ import { compareEstimates, readEstimates } from "./noise.js";
 import { compare, readPpm } from "./pictures.js";
 import { firstIncludes } from "./includes.js";
 import { borrowedWords } from "./borrowed.js";
+import { Compiler, whyNothing } from "./programs.js";
 const picture = (bytes) => readPpm(new Uint8Array(bytes));
 const judge = (mine, reference, most) => compare(picture(mine), picture(reference), most);
 const judgeNoise = (bytes, noise) => compareEstimates(readEstimates(new Uint8Array(bytes)), noise);
-window.checks = { linkerWords, borrowedWords, printedIn, readReport, firstIncludes, judge, judgeNoise };
+window.checks = { linkerWords, borrowedWords, printedIn, readReport, firstIncludes, judge, judgeNoise, readEstimates,
+  Compiler, whyNothing };
 """
 
 
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[PlayServer]:
-    for name in ("report.js", "noise.js", "pictures.js", "includes.js", "borrowed.js"):
+    for name in ("report.js", "noise.js", "pictures.js", "includes.js", "borrowed.js", "programs.js"):
         (tmp_path / name).write_bytes(files("raysteps.play").joinpath("static", name).read_bytes())
     (tmp_path / "index.html").write_text(_PAGE)
     (tmp_path / "check.js").write_text(_CHECK)
@@ -341,6 +343,33 @@ def test_the_page_refuses_what_a_manifest_bars(watched: Watched, server: PlaySer
     described |= {"barred": barred(member)}
     asked = ["_ZNK8raysteps6Sphere9intersectERKNS_3RayE"]
     assert page.evaluate("words => checks.borrowedWords(...words)", [described, asked, ""])
+
+
+# With a worker that is ready at once, and can build nothing.
+_FAILS = """async () => {
+    const asked = [];
+    window.Worker = class {
+        terminate() {}
+        postMessage(words) {
+            asked.push(words);
+            if ("kit" in words) this.onmessage({ data: { ready: true } });
+            if ("job" in words) this.onmessage({ data: { job: words.job, failed: "no room" } });
+        }
+    };
+    const compiler = new checks.Compiler({}, () => {});
+    await compiler.prepare();
+    const why = await compiler.build("01", {}, 60).catch((error) => error.message);
+    compiler.lookAhead("02", "int x;");
+    return [why, asked.at(-1).ahead];
+}"""
+
+
+def test_what_gives_nothing_is_told_and_is_over(watched: Watched, server: PlayServer) -> None:
+    page = _open(watched, server)
+    assert page.evaluate(_FAILS) == ["no room", "02"]
+    assert page.evaluate("checks.readEstimates(undefined)") is None
+    why = page.evaluate("checks.whyNothing({ code: 0, stderr: '' }, 'The picture', '')")
+    assert why.endswith("the program gave up with exit code 0, as by a call of exit(0).")
 
 
 def test_the_page_finds_the_same_first_includes(

@@ -307,18 +307,26 @@ export class Figures {
     this.#isAsking = true;
     for (const next of this.#waiting) {
       this.#waiting.delete(next);
-      const { values, words } = next.question();
-      const task = { module: this.#module, words: ["figure", ...words], files: {}, wanted: [] };
-      const ran = await this.#runner.run(task, SECONDS);
-      const missing = unwritten(ran);
-      const waited = next.isDrawnWithout(missing) ? [] : missing;
-      const answer = waited.length ? null : answerOf(ran);
-      if (answer) {
-        next.show(values, answer, missing);
-      } else if (ran.stopped !== "hand") {
-        next.tell(whyNot(ran, waited), waited.length > 0);
+      try {
+        await this.#answer(next);
+      } catch (error) {
+        next.tell(`Your code's answer cannot be drawn: ${error.message}.`);
       }
     }
     this.#isAsking = false;
+  }
+
+  async #answer(figure) {
+    const { values, words } = figure.question();
+    const task = { module: this.#module, words: ["figure", ...words], files: {}, wanted: [] };
+    const ran = await this.#runner.run(task, SECONDS);
+    const missing = unwritten(ran);
+    const waited = figure.isDrawnWithout(missing) ? [] : missing;
+    const answer = waited.length ? null : answerOf(ran);
+    if (answer) {
+      figure.show(values, answer, missing);
+    } else if (ran.stopped !== "hand") {
+      figure.tell(whyNot(ran, waited), waited.length > 0);
+    }
   }
 }

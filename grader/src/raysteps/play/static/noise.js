@@ -7,7 +7,7 @@ const ABSOLUTE = 5e-4;
 
 /** What `raytrace --estimates` writes: of each pixel three means and their variances. */
 export function readEstimates(bytes) {
-  const head = new TextDecoder("latin1").decode(bytes.subarray(0, 64));
+  const head = new TextDecoder("latin1").decode(bytes?.subarray(0, 64));
   const found = /^raysteps-estimates (\d+) (\d+)\n/.exec(head);
   if (!found) {
     return null;

@@ -26,7 +26,7 @@ async function answer(request) {
   }
   const found = await fetch(request);
   if (found.ok) {
-    await cache.put(request, found.clone());
+    await cache.put(request, found.clone()).catch(() => {}); // there is no room: then it is loaded each time
   }
   return found;
 }

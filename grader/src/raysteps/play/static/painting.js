@@ -5,6 +5,7 @@ import { AFTER_A_STOP, data, element } from "./page-data.js";
 import { compare, draw, readImage, readPpm } from "./pictures.js";
 import { Runner, whyNothing } from "./programs.js";
 
+const NO_ESTIMATES = "The estimates that the program wrote beside the picture cannot be read.";
 const ESTIMATES = ["--estimates", "/out/estimates"]; // of a noisy picture
 
 /** Draws one picture at a time. */
@@ -26,7 +27,11 @@ export class Painter {
 
   async #fileOf(name) {
     if (!this.#files.has(name)) {
-      this.#files.set(name, new Uint8Array(await (await fetch(name)).arrayBuffer()));
+      const answer = await fetch(name);
+      if (!answer.ok) {
+        throw new Error(`${name}: cannot be loaded (${answer.status})`);
+      }
+      this.#files.set(name, new Uint8Array(await answer.arrayBuffer()));
     }
     return this.#files.get(name);
   }
@@ -119,7 +124,7 @@ export class Painter {
       ? compareEstimates(estimates, picture.noise)
       : mine && !picture.noise
         ? compare(mine, reference, picture.maxWrong)
-        : { passed: false, message: whyNothing(ran, "The picture", data.words.endless) };
+        : { passed: false, message: mine ? NO_ESTIMATES : whyNothing(ran, "The picture", data.words.endless) };
     const stats = ran.made?.["/out/stats.json"];
     if (verdict.passed && picture.maxShare !== null && stats) {
       const { share_tested: share } = JSON.parse(new TextDecoder().decode(stats));

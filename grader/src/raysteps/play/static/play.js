@@ -15,6 +15,7 @@ import { Turn, textsIn, Work, zipOf } from "./work.js";
 
 const COMPILE_SECONDS = 60;
 const KEEP_AFTER = 300; // milliseconds without a key
+const SAVE_SECONDS = 60; // until a browser that asks where to has surely taken a file
 const SOON = 3000; // milliseconds until a service worker is there, or the page begins without it
 const turnOf = (step) => `raysteps-play ${step.id}`; // of the tab that writes it
 const LOADED = { [data.kit.clang]: "the compiler", [data.kit.system]: "C++", [data.kit.parts]: "the kit" };
@@ -81,30 +82,28 @@ class Page {
     element("play-step").addEventListener("change", (event) => {
       location.hash = event.target.value;
     });
-    addEventListener("hashchange", () => this.#open().catch((error) => this.tellFault(error)));
+    const on = (target, event, act) => target.addEventListener(event, this.#telling(act));
+    const onClick = (id, act) => on(element(id), "click", act);
+    on(window, "hashchange", () => this.#open());
     addEventListener("pagehide", () => this.#leave());
     document.addEventListener("visibilitychange", () => this.#keep());
     element("play-run").addEventListener("click", () => this.run());
     element("play-stop").addEventListener("click", () => this.stop());
-    element("play-save").addEventListener("click", () => this.#saveZip());
+    onClick("play-save", () => this.#saveZip());
     element("play-load").addEventListener("click", () => element("play-zip").click());
-    element("play-zip").addEventListener("change", (event) => this.#openZip(event.target));
-    element("play-folder").addEventListener("click", () => this.#link());
-    element("play-theirs").addEventListener("click", () => this.#settle(true));
-    element("play-ours").addEventListener("click", () => this.#settle(false));
-    addEventListener("focus", async () => (await this.#sync(false)) && this.run());
+    on(element("play-zip"), "change", (event) => this.#openZip(event.target));
+    onClick("play-folder", () => this.#link());
+    onClick("play-theirs", () => this.#settle(true));
+    onClick("play-ours", () => this.#settle(false));
+    on(window, "focus", async () => (await this.#sync(false)) && this.run());
     element("play-next").addEventListener("click", () => {
       location.hash = this.#next.number;
     });
-    element("play-here").addEventListener("click", () => this.#writeHere());
+    onClick("play-here", () => this.#writeHere());
     element("play-hint").addEventListener("click", () => nextHint(this.#step));
     element("play-reset").addEventListener("click", () => element("play-really").showModal());
-    element("play-really").addEventListener("close", (event) => {
-      if (event.target.returnValue === "reset") {
-        this.#reset();
-      }
-    });
-    element("play-back").addEventListener("click", () => this.#bringBack());
+    on(element("play-really"), "close", (event) => event.target.returnValue === "reset" && this.#reset());
+    onClick("play-back", () => this.#bringBack());
     for (const button of document.querySelectorAll(".play-rooms button")) {
       button.addEventListener("click", () => element(button.dataset.room).scrollIntoView());
     }
@@ -137,6 +136,17 @@ class Page {
     await this.run();
   }
 
+  /** Does what an event asks for, and tells what goes wrong. */
+  #telling(act) {
+    return async (event) => {
+      try {
+        await act(event);
+      } catch (error) {
+        this.tellFault(error);
+      }
+    };
+  }
+
   // What is shown, and kept.
 
   async #open() {
@@ -147,11 +157,15 @@ class Page {
     }
     const handout = await handoutOf(wanted);
     if (handout === null) {
-      this.#stay(wanted);
+      const help = "Is there a network, and is the page's server still there? Choose it again then.";
+      this.#stay(wanted, `cannot be loaded. ${help}`);
       return;
     }
-    await this.#keep(); // before another tab may have it
-    const isMine = await this.#turn.take(turnOf(wanted), (now) => this.#changeTurn(now));
+    if (!(await this.#keep())) {
+      this.#stay(wanted, "is not opened: what you wrote here would be lost.");
+      return;
+    }
+    const isMine = await this.#takeTurn(wanted); // after it was kept: another tab may have it now
     const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
     const old = await this.#work.read(replaced(wanted));
     await this.#keep();
@@ -188,12 +202,11 @@ class Page {
   }
 
   /** Another step was chosen and cannot be had: the one that is shown stays chosen, so that the other can be again. */
-  #stay({ number }) {
+  #stay({ number }, why) {
     if (!this.#step) {
       throw new Error(`step ${number} cannot be loaded`);
     }
-    const help = "Is there a network, and is the page's server still there? Choose it again then.";
-    this.#say("bad", `Step ${number} cannot be loaded. ${help}`);
+    this.#say("bad", `Step ${number} ${why}`);
     history.replaceState(null, "", `#${this.#step.number}`);
     element("play-step").value = this.#step.number;
   }
@@ -222,9 +235,14 @@ class Page {
     }
   }
 
+  #takeTurn(step, steal = false) {
+    const changed = this.#telling((isMine) => this.#changeTurn(isMine));
+    return this.#turn.take(turnOf(step), changed, steal);
+  }
+
   async #writeHere() {
     const step = this.#step;
-    const isMine = await this.#turn.take(turnOf(step), (now) => this.#changeTurn(now), true);
+    const isMine = await this.#takeTurn(step, true);
     if (step === this.#step) {
       await this.#changeTurn(isMine);
       this.#editor.focus(); // the button is gone
@@ -242,14 +260,25 @@ class Page {
     }, KEEP_AFTER);
   }
 
+  /** Whether all is kept; if not it has said so, and the next time tries again. */
   async #keep() {
     clearTimeout(this.#keepTimer);
     const { text } = this.#editor;
-    if (this.#step && this.#isMine && text !== this.#kept) {
-      this.#kept = text;
-      await this.#work.write(this.#step.id, text);
-      element("play-kept").textContent = "Kept in this browser.";
+    const before = this.#kept;
+    if (!this.#step || !this.#isMine || text === before) {
+      return true;
     }
+    this.#kept = text;
+    try {
+      await this.#work.write(this.#step.id, text);
+    } catch (error) {
+      this.#kept = this.#kept === text ? before : this.#kept;
+      const help = "Save as zip keeps it elsewhere.";
+      element("play-kept").textContent = `Not kept: this browser cannot (${error.message}). ${help}`;
+      return false;
+    }
+    element("play-kept").textContent = "Kept in this browser.";
+    return true;
   }
 
   /** What was typed a moment ago, too. */
@@ -307,14 +336,15 @@ class Page {
     await this.#keep();
     const texts = {};
     for (const step of data.steps) {
-      const text = await this.#work.read(step.id);
+      const isNew = step === this.#step && this.#editor.text !== this.#kept; // where the browser cannot keep it
+      const text = isNew ? this.#editor.text : await this.#work.read(step.id);
       if (text) {
         texts[step.path] = text;
       }
     }
     const link = make("a", { href: URL.createObjectURL(zipOf(texts)), download: "my-steps.zip" });
     link.click();
-    URL.revokeObjectURL(link.href);
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000 * SAVE_SECONDS);
   }
 
   /** What was saved, in place of what is kept; that can be brought back. */
@@ -328,7 +358,9 @@ class Page {
       this.#say("bad", `${zip.name} cannot be read. Expected a zip that this page saved, or one that you hand in.`);
       return;
     }
-    await this.#keep();
+    if (!(await this.#keep())) {
+      return;
+    }
     const [opened, left] = [[], []];
     for (const step of data.steps) {
       const file = step.path.split("/").at(-1);
@@ -349,9 +381,13 @@ class Page {
       await this.#work.write(step.id, texts[path]);
       opened.push(step.number);
     }
-    if (opened.includes(this.#step.number)) {
-      this.#show(await this.#work.read(this.#step.id), this.#isMine);
-      this.#offer(await this.#work.read(replaced(this.#step)));
+    const shown = this.#step;
+    if (opened.includes(shown.number)) {
+      const [text, old] = [await this.#work.read(shown.id), await this.#work.read(replaced(shown))];
+      if (shown === this.#step) {
+        this.#show(text, this.#isMine);
+        this.#offer(old);
+      }
     }
     await this.run();
     const elsewhere = left.length ? ` Open in another tab, and left as they are: ${left.join(", ")}.` : "";
@@ -497,12 +533,15 @@ class Page {
       return; // nobody waits for it
     }
     const megabytes = (bytes) => `${(bytes / 1e6).toFixed(1)} MB`;
+    const words = `${megabytes(done)}${total ? ` of ${megabytes(total)}` : ""}`;
     const bar = element("play-loading");
     bar.hidden = total > 0 && done >= total;
     bar.max = total || 1;
     bar.value = done;
+    bar.setAttribute("aria-valuetext", words); // not the status, which would be spoken each time
+    bar.title = words;
     const what = LOADED[name] ?? "what the step includes";
-    this.#say("busy", `Loading ${what}: ${megabytes(done)}${total ? ` of ${megabytes(total)}` : ""}`);
+    this.#say("busy", `Loading ${what} ...`);
   }
 
   // A run: compile, link, test, draw.

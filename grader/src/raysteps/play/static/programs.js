@@ -19,8 +19,9 @@ export function whyNothing(ran, what, endless) {
     const [, why] = CRASHES.find(([known]) => known.test(ran.crashed)) ?? [null, ran.crashed];
     return `${what} did not come to its end: the program crashed (${why}).`;
   }
+  const code = `exit code ${ran.code}${ran.code ? "" : ", as by a call of exit(0)"}`;
   const said = ran.stderr.trim().split("\n").at(-1);
-  return `${what} did not come to its end: the program gave up with exit code ${ran.code}${said ? `: ${said}` : "."}`;
+  return `${what} did not come to its end: the program gave up with ${code}${said ? `: ${said}` : "."}`;
 }
 
 /** Compiles and links, once it is prepared. One job at a time; a new one ends an old one. */
@@ -99,6 +100,7 @@ export class Compiler {
           says.push(data.says);
         } else if (data.failed) {
           clearTimeout(timer);
+          this.#answer = null;
           reject(new Error(data.failed));
         } else {
           end(data);

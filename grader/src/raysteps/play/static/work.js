@@ -9,6 +9,14 @@ function asked(request) {
   });
 }
 
+/** A change that is written, and not only taken: where there is no room for it, that is known at its end. */
+function written({ transaction }) {
+  return new Promise((resolve, reject) => {
+    transaction.oncomplete = resolve;
+    transaction.onabort = () => reject(transaction.error ?? new Error("given up"));
+  });
+}
+
 /** The sources by step, in IndexedDB; what a page leaves when it goes, in local storage until it is asked for. */
 export class Work {
   #name;
@@ -52,7 +60,7 @@ export class Work {
   async read(step) {
     const left = this.#left(step);
     if (left !== null) {
-      await asked(this.#store("readwrite").put(left, step));
+      await written(this.#store("readwrite").put(left, step));
       this.#dropLeft(step);
     }
     return asked(this.#store("readonly").get(step));
@@ -60,12 +68,12 @@ export class Work {
 
   write(step, source) {
     this.#dropLeft(step);
-    return asked(this.#store("readwrite").put(source, step));
+    return written(this.#store("readwrite").put(source, step));
   }
 
   forget(step) {
     this.#dropLeft(step);
-    return asked(this.#store("readwrite").delete(step));
+    return written(this.#store("readwrite").delete(step));
   }
 
   #dropLeft(step) {

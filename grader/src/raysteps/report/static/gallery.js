@@ -126,6 +126,7 @@ class Gallery {
       alt: `${this.scene.title}: ${name}`,
     });
     const focused = this.picture.contains(document.activeElement);
+    this.picture.setAttribute("label", this.scene.title);
     this.picture.setPictures({ reference: picture(left), mine: picture(right) });
     this.fitWall();
     if (focused) {

@@ -65,6 +65,7 @@ class InsideView {
   /** @param {InsideRay} ray @param {number} boxes how many of its boxes, in their order */
   show(ray, boxes) {
     this.ray = ray;
+    for (const { kept } of this.boxes ?? []) this.painter.drop(kept);
     this.boxes = ray.boxes
       .slice(0, boxes)
       .map((box) => ({ ...box, kept: this.painter.keepLines(boxEdges(box.min, box.max)) }));

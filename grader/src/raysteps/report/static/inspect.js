@@ -82,6 +82,7 @@ class PixelInside extends HTMLElement {
     this.name = name;
     const canvas = this.piece("canvas").cloneNode();
     this.piece("canvas").replaceWith(canvas);
+    this.view?.end();
     this.view = new InsideView(canvas, this.spaces[name]);
     this.view.solid = this.piece("solid").checked;
     this.survive(canvas);

@@ -94,6 +94,11 @@ class SpacePainter {
     return { program: "line", parts, count: side.length };
   }
 
+  /** @param {object} kept by keepMesh or keepLines, and not drawn any more */
+  drop({ parts }) {
+    for (const [buffer] of Object.values(parts)) this.gl.deleteBuffer(buffer);
+  }
+
   /** @param {Mat4} toClip @param {Vec3} toEye unit, for the light on surfaces */
   begin(toClip, toEye) {
     const { gl } = this;
