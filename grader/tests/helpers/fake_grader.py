@@ -14,7 +14,6 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from raysteps.classroom.jobs import ProgressCallback
 from raysteps.common.errors import GraderFault
 from raysteps.course.manifest import read_steps
 from raysteps.course.project import here
@@ -31,6 +30,7 @@ from raysteps.results.model import (
 from raysteps.results.store import write_results
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 FAKE = "fake_grader:make"
 _REFERENCE = b"a reference picture, alike for all"

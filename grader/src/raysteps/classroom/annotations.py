@@ -111,7 +111,7 @@ def checked(one: Annotation) -> Annotation:
 # Reading.
 
 
-_COLUMNS = ("uid", "subject", "kind", "author", "at")
+_COLUMNS = ("uid", "subject", "kind", "author", "at")  # of the table; the rest is its content
 
 
 def _annotation(row: sqlite3.Row) -> Annotation:
@@ -180,12 +180,10 @@ def code_mark(database: ClassDatabase, sources: Mapping[str, Source], run: int |
 def add_annotation(database: ClassDatabase, submission: int, one: Annotation) -> bool:
     """False where it is there already. Only within a transaction."""
     content = {
-        name: value
-        for name, value in asdict(one).items()
-        if name not in ("uid", "subject", "kind", "author", "at") and value != getattr(_EMPTY, name)
+        name: value for name, value in asdict(one).items() if name not in _COLUMNS and value != getattr(_EMPTY, name)
     }
     row = {
-        **{name: getattr(one, name) for name in ("uid", "subject", "kind", "author", "at")},
+        **{name: getattr(one, name) for name in _COLUMNS},
         "submission": submission,
         "content": json.dumps(content, ensure_ascii=False),
     }

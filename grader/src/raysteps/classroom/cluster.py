@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from typing import Any
 
-from raysteps.classroom.jobs import SAME_KIT, Job, JobResult, ProgressCallback, from_line, make_grader, to_line
+from raysteps.classroom.jobs import SAME_KIT, Job, JobResult, from_line, make_grader, to_line
 from raysteps.classroom.local_pool import Slot
 from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.text import count
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 # What runs in a worker of a cluster. Each job is graded by a process of its own: a grader that crashes takes no
 # worker with it, and a worker that is lost takes its process with it.

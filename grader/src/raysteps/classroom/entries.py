@@ -20,7 +20,7 @@ from raysteps.course.manifest import Step
 from raysteps.submission.entries import is_out_of_sight
 from raysteps.submission.load import ARCHIVE_ENDINGS, Submission, load_submission, without_place
 
-_MAX_FILES = 20_000
+MAX_FILES = 20_000  # of an entry that are looked at
 _MAX_DEPTH = 6
 _NO_SUBMISSIONS = {"__MACOSX", "Thumbs.db", "desktop.ini"}
 
@@ -133,7 +133,7 @@ def _file_times(folder: Path) -> Iterator[float]:
         current, depth = stack.pop()
         for child, status in _children(current):
             seen += 1
-            if seen > _MAX_FILES:
+            if seen > MAX_FILES:
                 return
             if child.name.startswith(".") or (stat.S_ISDIR(status.st_mode) and is_out_of_sight((child.name,))):
                 continue

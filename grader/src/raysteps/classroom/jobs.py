@@ -3,7 +3,7 @@
 import importlib
 import json
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Literal, Protocol, TypeVar, cast
@@ -15,6 +15,7 @@ from raysteps.common.errors import GraderFault
 from raysteps.results.model import Results, Settings
 from raysteps.sandbox.task import Isolation
 from raysteps.submission.load import Submission
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,6 @@ def from_line(line: bytes, kind: type[Message]) -> Message:
 
 # What grades one submission; the class does not know how that is done.
 
-ProgressCallback = Callable[[str], None]
 KIT_GRADER = "raysteps.classroom.kit_grader:make"
 
 

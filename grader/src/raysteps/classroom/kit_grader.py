@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from raysteps.classroom.jobs import ProgressCallback
 from raysteps.course.mutants import read_mutants
 from raysteps.course.project import here
 from raysteps.diagnosis.mutant_fingerprints import mutant_fingerprints
@@ -15,6 +14,7 @@ from raysteps.results.model import Settings
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.build_kit import build_kit
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 
 class KitGrader:

@@ -1,4 +1,4 @@
-"""Reads who is to be ranked: a graded class, or results.json files."""
+"""Who did it with the least work: reads a graded class or results.json files, ranks them and tells the order."""
 
 import json
 from collections import Counter

@@ -15,7 +15,7 @@ from raysteps.classroom.annotations import annotated, last_said
 from raysteps.classroom.class_document import CurrentResults, steps_of
 from raysteps.classroom.class_files import SUBMISSIONS, write_submission
 from raysteps.classroom.database import ClassDatabase, insert, stamp, transaction
-from raysteps.classroom.entries import ClassEntry, folded, load_entry
+from raysteps.classroom.entries import MAX_FILES, ClassEntry, folded, load_entry
 from raysteps.classroom.jobs import JobResult
 from raysteps.classroom.resubmissions import sources_digest
 from raysteps.classroom.run_plan import Plan
@@ -116,8 +116,6 @@ class FeedbackLog:
 
 # Whether an entry is still being uploaded.
 
-_MAX_FILES = 20_000
-
 
 def signature(path: Path) -> str:
     """Changes with everything that is written into an entry; nothing where it is gone."""
@@ -131,7 +129,7 @@ def signature(path: Path) -> str:
         for name in sorted(files) + folders:
             digest.update(f"{os.fsencode(os.path.join(folder, name))!r} {_facts(Path(folder, name))}".encode())  # noqa: PTH118
             seen += 1
-        if seen > _MAX_FILES:
+        if seen > MAX_FILES:
             break
     return digest.hexdigest()
 

@@ -11,6 +11,7 @@ from raysteps.course.manifest import Step
 from raysteps.report.student import parts_of
 from raysteps.results.class_model import HumanReview
 from raysteps.results.model import (
+    SAME_POINTS,
     Comment,
     PointsOverride,
     RegradeRequest,
@@ -21,7 +22,6 @@ from raysteps.results.model import (
     Total,
 )
 
-_ALIKE = 0.005  # points are written in hundredths
 _AROUND = 2  # lines before and after a commented one
 _LINE = 300  # characters of it
 
@@ -168,7 +168,7 @@ def _look_again(mine: Sequence[Annotation], results: Results, known: Mapping[str
             found.append(f"{what}: the step is not graded any more, and the {number(one.points)} points do not count")
             continue
         now = _earned(steps[one.step], known.get(one.step), one.part)
-        if abs(now - one.automatic) > _ALIKE:
+        if abs(now - one.automatic) > SAME_POINTS:
             counts = _override(one, now).points == now
             found.append(
                 f"{what}: {one.author} made {number(one.points)} of the {number(one.automatic)} that the grader gave "

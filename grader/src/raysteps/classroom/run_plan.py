@@ -83,8 +83,7 @@ def check_places(folder: Path, out: Path, *, resume: bool) -> None:
         raise UsageError(f"--resume: {out} holds no {FILE} to go on from")
 
 
-def read_text(path: Path) -> str:
-    """The late policy."""
+def _read_late_policy(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
@@ -149,7 +148,7 @@ def read_run_inputs(options: ClassOptions) -> RunInputs:
     last = _last(options.out)
     given = RunInputs(files=[path for path in (options.roster, options.late_policy) if path is not None] + last.files)
     if options.late_policy is not None:
-        given.late_policy = read_text(options.late_policy)
+        given.late_policy = _read_late_policy(options.late_policy)
         parse_late_policy(given.late_policy, str(options.late_policy))
     elif options.course.late_table and not options.no_late_policy:
         parse_late_policy(options.course.text, str(options.course.path), ["late_policy"])
@@ -179,7 +178,7 @@ def _leads_to(entry: ClassEntry) -> str:
 
 @dataclass(frozen=True)
 class Plan:
-    """`entries` are those of this shard, with their names."""
+    """All that a run is to do; `listing` has the entries of other shards, too."""
 
     options: ClassOptions
     steps: list[Step]

@@ -1,4 +1,4 @@
-"""What is printed when a class has been graded."""
+"""What is printed while a class is graded, and when it has been."""
 
 import sys
 import time
@@ -13,6 +13,7 @@ from rich.table import Table
 from raysteps.classroom.class_files import SUBMISSIONS
 from raysteps.classroom.late_policy import BY_FILE
 from raysteps.common.text import count, first_line, number, tenths
+from raysteps.report.class_overview import has_unread_files, is_late_by_file
 from raysteps.report.class_page import FILE as CLASS_PAGE
 from raysteps.results.class_model import ClassResults, GradedSubmission, NotedStudent
 from raysteps.results.statuses import NOT_TAKEN, NOT_TAKEN_STATUS, Status, in_words
@@ -174,7 +175,7 @@ def _late_by_file(document: ClassResults) -> list[str]:
     return [
         f"{one.name}: {one.submitted_at}, {count(one.late.days, 'day')} begun, {number(one.late.percent)} % off"
         for one in document.submissions
-        if one.submitted_from == "files" and one.late is not None and one.late.days
+        if one.late is not None and is_late_by_file(one)
     ]
 
 
@@ -209,9 +210,7 @@ def _print_apart(console: Console, document: ClassResults) -> None:
     _print_list(console, "With an earlier result, because what is there now is not graded yet", document.outdated)
     unread = [f"{name}: {' '.join(by_name[name].why_unread)}" for name in document.unreadable]
     _print_list(console, "Nothing could be read of these, so they have 0 points", unread)
-    files = [
-        f"{one.name}: {words}" for one in document.submissions if one.status == "graded" for words in one.not_taken
-    ]
+    files = [f"{one.name}: {words}" for one in document.submissions if has_unread_files(one) for words in one.not_taken]
     _print_list(console, "Files that could not be read, so their steps have 0 points", files)
     _print_list(console, f"Late {BY_FILE}, where the roster has no submitted_at", _late_by_file(document))
     _print_list(console, "The most common mistakes, by submissions", _mistakes(document))

@@ -15,10 +15,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NoReturn
 
-from raysteps.classroom.jobs import SAME_KIT, Grader, Job, JobResult, ProgressCallback, from_line, make_grader, to_line
+from raysteps.classroom.jobs import SAME_KIT, Grader, Job, JobResult, from_line, make_grader, to_line
 from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.results.model import Results
 from raysteps.results.store import read_results
+from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 # Grades jobs in this process, one after another, with a grader that is made once.
 

@@ -40,6 +40,14 @@ def square_number(most: int, word: str) -> int:
     return int(word)
 
 
+def whole_number(least: int, most: int | None, word: str) -> int:
+    """Likewise; None is no limit."""
+    if not re.fullmatch(r"[0-9]{1,9}", word) or not least <= int(word) <= (int(word) if most is None else most):
+        range_ = f"{least} on" if most is None else f"{least} to {most}"
+        raise argparse.ArgumentTypeError(f"expected a whole number from {range_}, found '{word}'")
+    return int(word)
+
+
 def port(word: str) -> int:
     if not (word.isascii() and word.isdigit() and int(word) <= 65535):
         raise argparse.ArgumentTypeError(f"{word}: expected a port from 1 to 65535, or 0 for any that is free")

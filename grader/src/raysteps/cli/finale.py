@@ -11,7 +11,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.markup import escape
 
-from raysteps.cli import STUDENTS_KIT, add_impl, picture_size, square_number
+from raysteps.cli import STUDENTS_KIT, add_impl, picture_size, square_number, whole_number
 from raysteps.cli.render import build_program, resolve_scene, run_raytrace
 from raysteps.cli.todo_steps import built_trees, unfinished
 from raysteps.common.errors import UsageError, reason
@@ -52,12 +52,6 @@ def _words(word: str) -> str:
     return text
 
 
-def _threads(word: str) -> str:
-    if not re.fullmatch("[0-9]{1,4}", word) or not 1 <= int(word) <= 1024:
-        raise argparse.ArgumentTypeError(f"expected a whole number from 1 to 1024, found '{word}'")
-    return word
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What to draw, how large and how smooth, and where to."""
     parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"an NFF or pbrt file (scenes/{_SCENE})")
@@ -88,7 +82,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="take the noise out of a picture of part two, by Open Image Denoise, if that is installed",
     )
-    parser.add_argument("--threads", type=_threads, metavar="N", help="the pictures are the same for any number")
+    threads = partial(whole_number, 1, 1024)
+    parser.add_argument("--threads", type=threads, metavar="N", help="the pictures are the same for any number")
     add_impl(parser)
 
 
@@ -257,7 +252,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
     available = _available_to(project, arguments.impl, part_two=part_two)
     program = build_program(release_tree(project), "raytrace", arguments.impl)
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
-        threads = () if arguments.threads is None else ("--threads", arguments.threads)
+        threads = () if arguments.threads is None else ("--threads", str(arguments.threads))
         own = OwnProgram(partial(run_raytrace, program), scene, Path(folder), threads)
         try:
             _make(project, arguments, own, available, out, console)

@@ -3,15 +3,16 @@
 import argparse
 import hashlib
 import os
-import re
 import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
 
+from raysteps.cli import whole_number
 from raysteps.common.errors import UsageError
 from raysteps.common.files import file_lock
 from raysteps.common.platform import kit_command, processor_count
@@ -62,13 +63,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--limit", action="append", default=[], metavar="NAME=VALUE", help=LIMIT_HELP)
     parser.add_argument("--require-sandbox", action="store_true", help="refuse to run without strong isolation")
-    parser.add_argument("--jobs", type=_above_0, metavar="N", help="steps at a time (as many as there are processors)")
-
-
-def _above_0(word: str) -> int:
-    if not re.fullmatch(r"[0-9]{1,4}", word) or int(word) == 0:
-        raise argparse.ArgumentTypeError(f"{word}: expected a whole number above 0")
-    return int(word)
+    jobs = partial(whole_number, 1, 9999)
+    parser.add_argument("--jobs", type=jobs, metavar="N", help="steps at a time (as many as there are processors)")
 
 
 def seconds_at_most(words: Sequence[str]) -> float:

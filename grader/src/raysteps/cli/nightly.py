@@ -7,6 +7,7 @@ from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field
 from datetime import UTC, datetime, tzinfo
+from functools import partial
 from pathlib import Path
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
@@ -24,6 +25,7 @@ from raysteps.classroom.repositories import Remotes, fetch_all
 from raysteps.classroom.run_plan import ClassOptions, Plan, make_plan, read_run_inputs
 from raysteps.classroom.session import Session, terminated_as_interrupted
 from raysteps.classroom.summary import ProgressMeter
+from raysteps.cli import whole_number
 from raysteps.cli.grade_class import add_grading_arguments, class_lock, read_options
 from raysteps.common.errors import GraderFault, RaystepsError, UsageError, reason_and_place
 from raysteps.common.files import usable_folder
@@ -45,12 +47,6 @@ def _span(text: str) -> float:
     return float(int(found[1]) * _UNITS[found[2]])
 
 
-def _per_day(text: str) -> int:
-    if not re.fullmatch("[0-9]{1,3}", text) or int(text) == 0:
-        raise argparse.ArgumentTypeError(f"'{text}': expected a number of feedbacks from 1 to 999")
-    return int(text)
-
-
 def _zone(text: str) -> tzinfo:
     try:
         return ZoneInfo(text)
@@ -64,7 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("folder", nargs="?", type=Path, metavar="DIR", help="one folder, zip or tar per student; or --git")
     add("--out", type=Path, required=True, metavar="OUT", help="the class, as of grade-class; for you alone")
     add("--give", type=Path, metavar="DIR", help="where each student's report.html goes (OUT/feedback)")
-    add("--per-day", type=_per_day, default=2, metavar="N", help="feedbacks a day for each student (2)")
+    per_day = partial(whole_number, 1, 999)
+    add("--per-day", type=per_day, default=2, metavar="N", help="feedbacks a day for each student (2)")
     add("--zone", type=_zone, metavar="NAME", help="whose days count (that of the deadline, else UTC)")
     when = parser.add_mutually_exclusive_group()
     when.add_argument("--every", type=_span, default=600.0, metavar="TIME", help="look so often, until Ctrl-C (10m)")

@@ -1,10 +1,11 @@
 """The command lines of `list`, `next`, `hint` and `reset`."""
 
 import argparse
-import re
+from functools import partial
 
 from rich.console import Console
 
+from raysteps.cli import whole_number
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import chosen_step
 from raysteps.course.project import Project
@@ -14,19 +15,14 @@ from raysteps.progress.standing import chosen_or_next, list_steps, next_step
 STEP_NAMES = "02, 2 or 02-intersection"
 
 
-def _level(word: str) -> int:
-    if not re.fullmatch("[0-9]{1,9}", word):
-        raise argparse.ArgumentTypeError(f"expected a whole number from 1 on, found '{word}'")
-    return int(word)
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Of the one whose parser it is; `list` and `next` have none."""
     name = parser.prog.rpartition(" ")[2]
     if name == "hint":
         parser.add_argument("step", nargs="?", metavar="STEP", help=f"{STEP_NAMES}; the next one when none is given")
         which = parser.add_mutually_exclusive_group()
-        which.add_argument("--level", type=_level, metavar="N", help="this hint, counted from 1")
+        level = partial(whole_number, 1, None)
+        which.add_argument("--level", type=level, metavar="N", help="this hint, counted from 1")
         which.add_argument("--all", action="store_true", help="all hints of the step")
         which.add_argument("--again", action="store_true", help="those that you have read")
     elif name == "reset":

@@ -14,10 +14,9 @@ from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import FORMULA_SIGNS, escape_formula, join_and, number, tenths, unescape_formula
 from raysteps.course.manifest import Step
 from raysteps.exports.items import as_html, summary
-from raysteps.results.model import Results
+from raysteps.results.model import SAME_POINTS, Results
 from raysteps.results.store import read_results
 
-_ALIKE = 0.005  # points are written in hundredths
 _WHO = ("submission", "id", "name", "email")
 _NEEDED = (*_WHO, "points", "max")
 
@@ -122,7 +121,7 @@ def results_of(folder: Path, graded: GradedStudent) -> Results | None:
     if not path.is_relative_to(home) or not path.is_file():
         return None
     results = read_results(path)
-    if graded.in_time is None or abs(results.total.points - graded.in_time) > _ALIKE:
+    if graded.in_time is None or abs(results.total.points - graded.in_time) > SAME_POINTS:
         raise UsageError(
             f"{path}: is of another run than results.csv, whose points for {graded.label} are not those; "
             "run grade-class with --resume again, which writes both"

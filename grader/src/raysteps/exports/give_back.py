@@ -233,6 +233,4 @@ def refuse_nobody(deliveries: Deliveries, folder: Path) -> None:
     """Where nothing can be given back, the reasons say what to do."""
     if not deliveries.given:
         reasons = list(dict.fromkeys(other.why for other in deliveries.others))[:3]
-        raise UsageError(
-            f"{folder}: nothing can be given back: {'; '.join(reasons)}" if reasons else f"{folder}: empty"
-        )
+        raise UsageError(f"{folder}: nothing can be given back: {'; '.join(reasons)}")

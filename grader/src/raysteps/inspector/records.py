@@ -207,7 +207,7 @@ def agreement(mine: Record, reference: Record) -> str:
 
 # Hit records that contradict their ray: told without the reference, by what the contract promises.
 
-_CLOSE = 1e-3  # of how far the ray went; numbers of a single float come much closer
+_RECORD_TOLERANCE = 1e-3  # of how far the ray went; numbers of a single float come much closer
 
 
 class Contradiction(NamedTuple):
@@ -221,15 +221,15 @@ def _of_hit(ray: Ray, hit: Hit) -> Iterator[str]:
     """In the order of the record's fields."""
     along = [as_float(o) + as_float(hit.distance) * as_float(d) for o, d in zip(ray.origin, ray.direction, strict=True)]
     reach = max(1.0, as_float(hit.distance) * length(ray.direction), length(ray.origin))
-    if not length(minus(hit.position, along)) <= _CLOSE * reach:
+    if not length(minus(hit.position, along)) <= _RECORD_TOLERANCE * reach:
         yield (
             f"position is {point(hit.position)}, but distance {brief(hit.distance)} along the ray lies {point(along)}"
         )
-    if not abs(length(hit.normal) - 1) <= _CLOSE:
+    if not abs(length(hit.normal) - 1) <= _RECORD_TOLERANCE:
         yield f"normal has length {brief(length(hit.normal))}; it must be 1"
-    elif dot(hit.normal, ray.direction) > _CLOSE:
+    elif dot(hit.normal, ray.direction) > _RECORD_TOLERANCE:
         yield "normal points away from where the ray came from; it must point to that side"
-    if not same_direction(hit.ray_direction, ray.direction, _CLOSE):
+    if not same_direction(hit.ray_direction, ray.direction, _RECORD_TOLERANCE):
         yield f"ray_direction is {point(hit.ray_direction)}, but the ray goes towards {point(ray.direction)}"
 
 

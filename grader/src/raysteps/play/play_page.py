@@ -42,9 +42,7 @@ from raysteps.play.web_kit import MAX_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
 from raysteps.report.wording import inspect_options
 from raysteps.results.statuses import NOT_BUILT
-from raysteps.toolchain.kit_artifacts import rate_limited
-
-Say = Callable[[str], None]
+from raysteps.toolchain.kit_artifacts import ProgressCallback, rate_limited
 
 _NAMES = (("{}",), ("{}", "{}"))  # one function that the linker misses, and several
 _RAYTRACE = ["--threads", "1", "--quiet", "-o", "/out/picture.ppm", "--stats", "/out/stats.json"]
@@ -64,7 +62,7 @@ def with_places(source: str, folder: str) -> str:
     return _IMPORT.sub(lambda found: f"{found[1]}{found[2]}{folder}{_module(found[3])}{found[2]}", source)
 
 
-def _editor(cache: Path, registry: str, say: Say) -> Iterator[tuple[str, bytes]]:
+def _editor(cache: Path, registry: str, say: ProgressCallback) -> Iterator[tuple[str, bytes]]:
     for package in EDITOR:
         folder = fetch(package, cache, registry, say)
         described = json.loads((folder / "package.json").read_text("utf-8"))
@@ -212,7 +210,7 @@ class PlayPage:
     """Puts the page together in a folder."""
 
     def __init__(
-        self, project: Project, registry: str, say: Say = lambda text: None, cache: Path | None = None
+        self, project: Project, registry: str, say: ProgressCallback = lambda text: None, cache: Path | None = None
     ) -> None:
         self._project = project
         self._registry = registry

@@ -165,7 +165,7 @@ FILE = "grader/src/raysteps/release/shared.toml"
 
 
 @dataclass(frozen=True)
-class Allowlist:
+class AllowedWords:
     """Words that somebody found to be no secret, the files that have them, and what they are like."""
 
     files: tuple[str, ...]
@@ -173,11 +173,11 @@ class Allowlist:
     words: str
 
 
-def read_allowlist() -> list[Allowlist]:
+def read_allowlist() -> list[AllowedWords]:
     """A list that is not well formed is the kit's fault."""
     try:
         table = tomllib.loads(files(__package__).joinpath("shared.toml").read_text(encoding="utf-8"))
-        return [Allowlist(tuple(one["files"]), str(one["origin"]), str(one["words"])) for one in table["shared"]]
+        return [AllowedWords(tuple(one["files"]), str(one["origin"]), str(one["words"])) for one in table["shared"]]
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise GraderFault(f"{FILE}: expected [[shared]] with files, origin and words: {reason(error)}") from error
 
@@ -219,7 +219,7 @@ def _helpers(project: Project) -> dict[str, str]:
     return found
 
 
-def gather(project: Project, shared: Sequence[Allowlist] | None = None) -> Secrets:
+def gather(project: Project, shared: Sequence[AllowedWords] | None = None) -> Secrets:
     """Less what the stubs themselves have, and the few things that shared.toml names. Nothing else is public: no file
     is forgiven because it is meant to go out."""
     secret = NgramIndex()

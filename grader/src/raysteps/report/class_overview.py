@@ -251,11 +251,11 @@ def _points(value: float | None) -> str:
     return "no points" if value is None else tenths(value)
 
 
-def _has_unread_files(one: GradedSubmission) -> bool:
+def has_unread_files(one: GradedSubmission) -> bool:
     return one.status == "graded" and bool(one.not_taken)
 
 
-def _is_late_by_file(one: GradedSubmission) -> bool:
+def is_late_by_file(one: GradedSubmission) -> bool:
     return one.submitted_from == "files" and one.late is not None and one.late.days > 0
 
 
@@ -278,14 +278,14 @@ class _Finder:
         return [self._item(name, one.why_unread) for name, one in self._of(self._document.unreadable)]
 
     def not_taken(self) -> list[Notice]:
-        found = [one for one in self._document.submissions if _has_unread_files(one)]
+        found = [one for one in self._document.submissions if has_unread_files(one)]
         return [self._item(one.name, one.not_taken) for one in found]
 
     def late_by_file(self) -> list[Notice]:
         return [
             self._item(name, [f"{one.submitted_at}, {count(one.late.days, 'day')} begun"])
             for name, (_, one) in self._rows.items()
-            if one.late is not None and _is_late_by_file(one)
+            if one.late is not None and is_late_by_file(one)
         ]
 
     def strangers(self) -> list[Notice]:
@@ -402,10 +402,10 @@ def marks_of(one: GradedSubmission, has_roster: bool) -> list[str]:
     found = {
         "fault": one.status == "fault",
         "unreadable": one.status == "unreadable",
-        "file not read": _has_unread_files(one),
+        "file not read": has_unread_files(one),
         "not graded": one.status == "not-graded",
         "earlier result": one.outdated,
-        "late by file time": _is_late_by_file(one),
+        "late by file time": is_late_by_file(one),
         "look again": bool(one.review.look_again),
         "open request": one.review.open_requests > 0,
         "nobody's": has_roster and not one.students,

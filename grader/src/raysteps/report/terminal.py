@@ -112,8 +112,8 @@ def _print_image(console: Console, image: ImageResult, out: Path, once: SaidOnce
     share = "" if image.wrong_share is None else f"{image.wrong_share:.2%}"
     noisy = "no more off than chance explains" if image.passed else f"{share} of its parts wrong"
     found = f"  {noisy if image.noisy else f'{share} wrong'}"
-    share = f": {how}" if how else "" if not share or share in image.message else found
-    console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{share}")
+    words = f": {how}" if how else "" if not share or share in image.message else found
+    console.print(f"  [{color}]picture[/{color}]  {escape(image.name)}{words}")
     if not image.passed:
         message = once(image.message, image.outcome)
         if message:

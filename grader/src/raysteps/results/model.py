@@ -12,6 +12,8 @@ from raysteps.common.documents import OPTIONAL, Amount, Count, Share, Text
 from raysteps.results.statuses import NOT_TAKEN, STATUS_WORDS, Status, StatusWords
 from raysteps.sandbox.task import Isolation
 
+SAME_POINTS = 0.005  # how far apart they may be: they are written in hundredths
+
 # How an instructor wants a submission to be graded.
 
 Feedback = Literal["full", "diagnosis", "score"]  # how much a student is told about the hidden part

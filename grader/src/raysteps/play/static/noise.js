@@ -1,5 +1,7 @@
 // Noisy pictures: as images/noise.py compares them, with the same bounds and words.
 
+import { percent } from "./pictures.js";
+
 const PART = 8; // pixels along a side
 const DEVIATIONS = 7.5;
 const RELATIVE = 2e-3;
@@ -70,7 +72,6 @@ function off(mine, right, { factor, most: mostNoise }, usual) {
 const isWrong = (channels) => channels.some(({ by, most }) => Math.abs(by) > most);
 const brief = (number, digits = 3) => String(Number(number.toPrecision(digits)));
 const numbers = (light) => `(${light.map((channel) => brief(channel)).join(", ")})`;
-const percent = (share) => `${(100 * share).toFixed(2)}%`;
 
 function lostPixels({ width, values }) {
   let first = -1;

@@ -44,7 +44,7 @@ function isFlat({ pixels }) {
   return pixels.every((channel, at) => channel === pixels[at % 3]);
 }
 
-const percent = (share) => `${(100 * share).toFixed(2)}%`;
+export const percent = (share) => `${(100 * share).toFixed(2)}%`;
 
 /** Whether enough pixels are right, and what to say where they are not. */
 export function compare(mine, reference, maxWrong) {
