@@ -12,8 +12,8 @@ from pathlib import Path
 
 from raysteps.classroom.annotations import annotated, is_unwritten, latest_serial, note_written
 from raysteps.classroom.class_document import class_document, hand_in, read_class_document, steps_of
+from raysteps.classroom.database import CLASS_JSON, SUBMISSIONS, ClassDatabase, open_readonly
 from raysteps.classroom.database import FILE as DATABASE
-from raysteps.classroom.database import ClassDatabase, open_readonly
 from raysteps.classroom.review import reviewed
 from raysteps.common.documents import as_text, plain
 from raysteps.common.errors import UsageError, reason
@@ -27,7 +27,7 @@ from raysteps.report.class_page import write_class_report
 from raysteps.report.student import try_student_page
 from raysteps.results.class_model import ClassResults, GradedSubmission, Student
 from raysteps.results.model import Feedback, Results
-from raysteps.results.store import CASES_FOLDER, REPORT, stored_results
+from raysteps.results.store import CASES_FOLDER, REPORT, RESULTS, stored_results
 
 # CSV that a spreadsheet shows and never runs.
 
@@ -52,8 +52,6 @@ def csv_bytes(rows: Iterable[Sequence[Cell]]) -> bytes:
     return out.getvalue().encode("utf-8-sig")
 
 
-SUBMISSIONS = "submissions"
-CLASS_JSON = "class.json"
 _TABLES = ("results.csv", CLASS_JSON)
 
 
@@ -99,7 +97,7 @@ def write_submission(
     if stored is None and row["document"]:
         _warn(f"{name}: a kit of another form graded it; grade it again")
         _forget_files(folder, set())
-        for left in ("results.json", REPORT):
+        for left in (RESULTS, REPORT):
             (folder / left).unlink(missing_ok=True)
         return
     results = None
@@ -113,13 +111,13 @@ def write_submission(
     forget_unfinished(folder)
     changed = [write_if_changed(folder / path, files[path]) for path in sorted(shown)]
     if results is not None:
-        changed.append(write_if_changed(folder / "results.json", as_text(results).encode()))
+        changed.append(write_if_changed(folder / RESULTS, as_text(results).encode()))
         if any(changed) or not (folder / REPORT).is_file():
             try_student_page(folder, steps, lambda words: _warn(f"{name}: {words}"))
         (folder / "fault.txt").unlink(missing_ok=True)
     else:
         write_bytes(folder / "fault.txt", f"{row['fault']}\n\n{row['details']}\n".encode("utf-8", "replace"))
-        for left in ("results.json", REPORT):
+        for left in (RESULTS, REPORT):
             (folder / left).unlink(missing_ok=True)
 
 

@@ -184,7 +184,7 @@ def transaction(connection: sqlite3.Connection) -> Iterator[None]:
 def refuse_results(folder: Path) -> None:
     """A folder that grade-class wrote, or the one inside it with what became of each, holds nothing handed in."""
     place = folder.resolve()
-    out = place.parent if place.name == "submissions" else place
+    out = place.parent if place.name == SUBMISSIONS else place
     if (out / FILE).is_file():
         raise UsageError(
             f"{folder}: holds the results of a class, since {FILE} lies there; expected the folder of what was handed "
@@ -240,7 +240,7 @@ def _check_whole(connection: sqlite3.Connection) -> None:
 def _refuse_emptied(connection: sqlite3.Connection, path: Path) -> None:
     """A database without a run beside results of one: to grade into it would take these for never made."""
     if connection.execute("SELECT 1 FROM runs LIMIT 1").fetchone() is None:
-        for name in ("class.json", "submissions"):
+        for name in (CLASS_JSON, SUBMISSIONS):
             if (path.parent / name).exists():
                 raise UsageError(
                     f"{path}: is empty, but {name} beside it holds results of a class; {_recovery_advice(path)}"
@@ -359,6 +359,8 @@ def has_table(connection: sqlite3.Connection, name: str) -> bool:
 
 
 FILE = "class.sqlite"
+CLASS_JSON = "class.json"  # and what is made of it, beside it
+SUBMISSIONS = "submissions"
 LOCK = "class.lock"
 # The run whose result of a submission counts.
 LATEST = "SELECT max(run) FROM results AS later WHERE later.submission = results.submission"

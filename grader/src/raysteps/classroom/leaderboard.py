@@ -13,13 +13,13 @@ from rich.markup import escape
 from rich.table import Table
 
 from raysteps.classroom.class_document import OTHER_FORM, read_class_document
-from raysteps.classroom.database import FILE, LATEST, explained_sqlite_errors, open_readonly
+from raysteps.classroom.database import CLASS_JSON, FILE, LATEST, explained_sqlite_errors, open_readonly
 from raysteps.common.documents import Amount, Count, Text, checked
 from raysteps.common.errors import UsageError
 from raysteps.common.text import count, name_order, print_plain, printable, size
 from raysteps.course.manifest import Step
 from raysteps.results.model import Results
-from raysteps.results.store import read_results, stored_results
+from raysteps.results.store import RESULTS, read_results, stored_results
 from raysteps.results.work_ratio import NoWorkRatio, WorkRatio, work_ratio_of
 
 _WANTED = "expected the folder of a graded class, its class.json or class.sqlite, or a results.json"
@@ -87,7 +87,7 @@ def _is_class(path: Path) -> bool:
 def _of_place(place: Path) -> list[LeaderboardEntry]:
     path = place
     if place.is_dir():
-        names = (FILE, "class.json", "results.json")
+        names = (FILE, CLASS_JSON, RESULTS)
         path = next((place / name for name in names if (place / name).is_file()), place)
         if path == place:
             raise UsageError(f"{place}: holds none of {', '.join(names)}; {_WANTED}")

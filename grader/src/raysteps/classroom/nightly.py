@@ -13,8 +13,8 @@ from typing import Literal
 
 from raysteps.classroom.annotations import annotated, last_said
 from raysteps.classroom.class_document import CurrentResults, steps_of
-from raysteps.classroom.class_files import SUBMISSIONS, write_submission
-from raysteps.classroom.database import ClassDatabase, insert, stamp, transaction
+from raysteps.classroom.class_files import write_submission
+from raysteps.classroom.database import SUBMISSIONS, ClassDatabase, insert, stamp, transaction
 from raysteps.classroom.entries import MAX_FILES, ClassEntry, folded, load_entry
 from raysteps.classroom.jobs import JobResult
 from raysteps.classroom.resubmissions import sources_digest

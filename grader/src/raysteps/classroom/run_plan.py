@@ -13,6 +13,7 @@ from pathlib import Path
 from raysteps.classroom.database import (
     FILE,
     LOCK,
+    SUBMISSIONS,
     ClassDatabase,
     RegisteredEntry,
     RunFacts,
@@ -75,7 +76,7 @@ def check_places(folder: Path, out: Path, *, resume: bool) -> None:
     refuse_results(folder)
     if _inside(out, folder):
         raise UsageError(f"--out {out}: lies in the folder of the submissions; name another folder")
-    if _inside(folder, out / "submissions"):
+    if _inside(folder, out / SUBMISSIONS):
         raise UsageError(f"--out {out}: its results would go into the folder of the submissions")
     # A run that was ended while the kit was built has left nothing but its lock.
     others = [path for path in out.iterdir() if path.name != LOCK] if out.is_dir() else []

@@ -10,7 +10,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 from rich.table import Table
 
-from raysteps.classroom.class_files import SUBMISSIONS
+from raysteps.classroom.database import SUBMISSIONS
 from raysteps.classroom.late_policy import BY_FILE
 from raysteps.common.text import count, first_line, number, tenths
 from raysteps.report.class_overview import has_unread_files, is_late_by_file

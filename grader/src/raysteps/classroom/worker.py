@@ -18,7 +18,7 @@ from typing import BinaryIO, NoReturn
 from raysteps.classroom.jobs import SAME_KIT, Grader, Job, JobResult, from_line, make_grader, to_line
 from raysteps.common.errors import GraderFault, RaystepsError
 from raysteps.results.model import Results
-from raysteps.results.store import read_results
+from raysteps.results.store import RESULTS, read_results
 from raysteps.toolchain.kit_artifacts import ProgressCallback
 
 # Grades jobs in this process, one after another, with a grader that is made once.
@@ -40,7 +40,7 @@ def _named_files(results: Results) -> Iterator[str]:
 
 def _read_answer(job: Job, out: Path, seconds: float) -> JobResult:
     """Only pictures and cases that the results name: what they withhold stays here."""
-    results = read_results(out / "results.json")
+    results = read_results(out / RESULTS)
     if results.submission != job.submission.name:
         raise GraderFault(f"these are the results of {results.submission}")
     pictures = {path: (out / path).read_bytes() for path in sorted(set(_named_files(results)))}

@@ -16,6 +16,7 @@ from raysteps.progress.check import check_steps
 from raysteps.progress.standing import ALL_DONE
 from raysteps.report.terminal import print_details, print_diagnoses, print_files, print_table, progress
 from raysteps.report.wording import replay_command, watch_command
+from raysteps.results.store import RESULTS
 from raysteps.updater.release_list import about_changed
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def run(project: Project, arguments: argparse.Namespace, console: Console) -> in
         print_details(console, found.results, found.kit.steps, out, replay_command, own=True)
         console.print()
         print_table(console, found.results, visible_only=not project.has_reference)
-        print_files(console, out / "results.json", found.page)
+        print_files(console, out / RESULTS, found.page)
 
     with console.status("starting") as status:
         checked = check_steps(project, chosen, progress(console, status), tell)

@@ -10,7 +10,8 @@ from typing import Any
 
 from rich.console import Console
 
-from raysteps.classroom.class_files import SUBMISSIONS, refuse_unwritten
+from raysteps.classroom.class_files import refuse_unwritten
+from raysteps.classroom.database import SUBMISSIONS
 from raysteps.cli.give_back import SYSTEMS as WAYS_BACK
 from raysteps.cli.give_back import add_give_back_arguments, add_renamed_columns, give_back
 from raysteps.common.errors import UsageError

@@ -27,7 +27,7 @@ from raysteps.grading.withhold import withhold
 from raysteps.report.student import try_student_page
 from raysteps.report.terminal import print_details, print_files, print_isolation, print_table, progress, short_path
 from raysteps.results.model import Results, Settings
-from raysteps.results.store import CASES_FOLDER
+from raysteps.results.store import CASES_FOLDER, RESULTS
 from raysteps.sandbox.detect import find_sandbox
 from raysteps.submission.load import (
     archives_beside,
@@ -150,7 +150,7 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
             submission = load_submission(options.submission, read_steps(project))
             kit = build_kit(project, say_of_kit)
             restart_clock()
-            replaces = (out / "results.json").exists() and bool(options.settings.only)
+            replaces = (out / RESULTS).exists() and bool(options.settings.only)
             clear_old_results(out, kit.steps, kit.steps)
             jobs = options.jobs or processor_count()
             results = grade_submission(kit, submission, options.settings, sandbox, out, say, jobs=jobs, course=course)
@@ -167,5 +167,5 @@ def grade(project: Project, options: GradeOptions, console: Console) -> Results:
     if options.out is None and room != project.build:
         console.print("Results were not kept: the kit may only be read here. Name a folder for them with --out.")
     else:
-        print_files(console, out / "results.json", page)
+        print_files(console, out / RESULTS, page)
     return results

@@ -15,7 +15,7 @@ from rich.console import Console
 
 from raysteps.classroom.annotations import is_unwritten
 from raysteps.classroom.class_files import withdraw_tables, write_class
-from raysteps.classroom.database import FILE, ClassDatabase, explained_sqlite_errors
+from raysteps.classroom.database import CLASS_JSON, FILE, ClassDatabase, explained_sqlite_errors
 from raysteps.classroom.entries import NoSubmission
 from raysteps.classroom.jobs import KIT_GRADER, Grader, make_grader
 from raysteps.classroom.late_policy import parse_late_policy
@@ -222,7 +222,7 @@ def _named(decisions: list[EntryDecision], state: str) -> list[str]:
 def _is_unfinished(database: ClassDatabase, out: Path) -> bool:
     """Whether the last run was killed before it wrote its tables."""
     run = database.connection.execute("SELECT state FROM runs ORDER BY number DESC LIMIT 1").fetchone()
-    return run is not None and (run["state"] == "running" or not (out / "class.json").is_file())
+    return run is not None and (run["state"] == "running" or not (out / CLASS_JSON).is_file())
 
 
 def _night(

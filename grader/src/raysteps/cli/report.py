@@ -15,9 +15,7 @@ from raysteps.progress.standing import standings
 from raysteps.report.attempts import OwnProgress
 from raysteps.report.student import write_student_page
 from raysteps.report.terminal import short_path
-from raysteps.results.store import read_results
-
-RESULTS = "results.json"
+from raysteps.results.store import RESULTS, read_results
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -19,8 +19,7 @@ from raysteps.classroom.annotations import (
     written_serial,
 )
 from raysteps.classroom.class_document import CurrentResults, submissions_if_current
-from raysteps.classroom.class_files import CLASS_JSON
-from raysteps.classroom.database import FILE, ClassDatabase, Source, explained_sqlite_errors
+from raysteps.classroom.database import CLASS_JSON, FILE, ClassDatabase, Source, explained_sqlite_errors
 from raysteps.classroom.review import line_now, review_results
 from raysteps.common.documents import Malformed, convert, plain
 from raysteps.common.errors import RaystepsError, UsageError

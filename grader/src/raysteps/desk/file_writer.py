@@ -8,8 +8,8 @@ from typing import Literal
 
 from raysteps.classroom.annotations import annotated, latest_serial, written_serial
 from raysteps.classroom.class_document import CurrentResults, class_document, submissions_if_current
-from raysteps.classroom.class_files import CLASS_JSON, write_class, write_submission, write_tables
-from raysteps.classroom.database import FILE, LOCK, ClassDatabase, explained_sqlite_errors, open_database
+from raysteps.classroom.class_files import write_class, write_submission, write_tables
+from raysteps.classroom.database import CLASS_JSON, FILE, LOCK, ClassDatabase, explained_sqlite_errors, open_database
 from raysteps.common.errors import UsageError
 from raysteps.common.files import file_lock, try_lock
 

@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.classroom.class_files import refuse_unwritten
+from raysteps.classroom.database import SUBMISSIONS
 from raysteps.classroom.entries import folded, platform_identity
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.text import FORMULA_SIGNS, escape_formula, join_and, number, tenths, unescape_formula
 from raysteps.course.manifest import Step
 from raysteps.exports.items import as_html, summary
 from raysteps.results.model import SAME_POINTS, Results
-from raysteps.results.store import read_results
+from raysteps.results.store import RESULTS, read_results
 
 _WHO = ("submission", "id", "name", "email")
 _NEEDED = (*_WHO, "points", "max")
@@ -116,8 +117,8 @@ def read_class(folder: Path) -> list[GradedStudent]:
 
 def results_of(folder: Path, graded: GradedStudent) -> Results | None:
     """The results.json of a submission, or None where there is none; it must be what the row was made from."""
-    home = (folder / "submissions").resolve()
-    path = (home / graded.submission / "results.json").resolve()
+    home = (folder / SUBMISSIONS).resolve()
+    path = (home / graded.submission / RESULTS).resolve()
     if not path.is_relative_to(home) or not path.is_file():
         return None
     results = read_results(path)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from raysteps.classroom.class_document import read_class_document, steps_of
-from raysteps.classroom.class_files import SUBMISSIONS
+from raysteps.classroom.database import CLASS_JSON, SUBMISSIONS
 from raysteps.classroom.entries import canvas_numbers, folded, moodle_identity, stem
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.platform import kit_command
@@ -100,7 +100,7 @@ def _why_not(one: GradedStudent, outdated: Collection[str], handed_in: Mapping[t
 def read_deliveries(folder: Path, only: Sequence[str] = ()) -> Deliveries:
     """Of the output of grade-class. What lies on disk holds no more than `--feedback` let students be told."""
     graded = read_class(folder)
-    document: ClassResults = read_class_document(folder / "class.json")
+    document: ClassResults = read_class_document(folder / CLASS_JSON)
     outdated = set(document.outdated)
     handed_in = Counter(_identity(one) for one in graded if one.submission)
     found = Deliveries(course=document.course, steps=steps_of(document.steps))

@@ -32,7 +32,7 @@ from raysteps.exports.gradescope import Visibility, not_graded, submitters, to_g
 from raysteps.exports.items import summary, wrapped
 from raysteps.exports.prairielearn import not_gradable, to_prairielearn
 from raysteps.results.model import Results, StepResult
-from raysteps.results.store import read_results
+from raysteps.results.store import RESULTS, read_results
 from raysteps.sandbox.task import read_regular
 from raysteps.submission.load import load_submission, without_place
 
@@ -94,7 +94,7 @@ def grade_here(project: Project, submission: Path, steps: list[Step], options: O
     if outcome.code not in _GRADED:
         raise NotGraded(_complaint(outcome))
     try:
-        return read_results(work / "results.json")
+        return read_results(work / RESULTS)
     except UsageError as error:
         raise GraderFault(f"grade left no results: {error}") from error
 

@@ -18,7 +18,7 @@ from raysteps.grading.images import ImageGrader
 from raysteps.grading.scoring import max_points, still_missing, test_weights
 from raysteps.grading.unit_tests import not_written_yet, run_tests
 from raysteps.results.model import Integration, StepResult
-from raysteps.results.store import CASES_FOLDER, REPORT, case_path
+from raysteps.results.store import CASES_FOLDER, REPORT, RESULTS, case_path
 from raysteps.sandbox.task import Sandbox
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import (
@@ -65,7 +65,7 @@ def clear_old_results(out: Path, steps: list[Step], asked_again: list[Step]) -> 
     stay for `replay` until their step is graded again."""
     usable_folder(out)
     try:
-        for name in ("results.json", REPORT):
+        for name in (RESULTS, REPORT):
             (out / name).unlink(missing_ok=True)
         for step in steps:
             folder = out / "pictures" / step.id

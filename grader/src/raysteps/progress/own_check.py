@@ -16,7 +16,7 @@ from raysteps.progress.standing import Kind, StepProgress, next_of, save_progres
 from raysteps.report.attempts import OwnProgress, note_attempt, read_attempts
 from raysteps.report.student import try_student_page
 from raysteps.results.model import Results, StepResult
-from raysteps.results.store import read_results, write_results
+from raysteps.results.store import RESULTS, read_results, write_results
 from raysteps.sandbox.limits_only import LimitsOnly
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import CompiledAhead
@@ -71,7 +71,7 @@ def _with_steps(results: Results, steps: Sequence[StepResult]) -> Results:
 def _found_before(out: Path, kit: BuiltKit, chosen: Sequence[Step]) -> Results | None:
     """What the same kit found of other steps, if any."""
     try:
-        before = read_results(out / "results.json")
+        before = read_results(out / RESULTS)
     except UsageError:
         return None
     asked = {step.id for step in chosen}

@@ -26,7 +26,7 @@ from raysteps.report.class_overview import (
 from raysteps.report.page import render_page
 from raysteps.results.class_model import ClassResults, GradedSubmission
 from raysteps.results.statuses import NOT_TAKEN, NOT_TAKEN_STATUS, STATUS_WORDS
-from raysteps.results.store import REPORT
+from raysteps.results.store import REPORT, RESULTS
 
 # The table of a class: what each row shows, and what it is sorted and found by.
 
@@ -141,7 +141,7 @@ def table_rows(document: ClassResults, marks: Mapping[int, Sequence[str]], link:
 FILE = "class.html"
 _COLUMNS = (3, 4)  # of cards in a wide window: those that leave the fewest gaps in the last row
 _PARTS = 240  # width of a step's bar
-_FILES = (REPORT, "results.json", "fault.txt")
+_FILES = (REPORT, RESULTS, "fault.txt")
 
 
 def _links(folder: Path) -> Callable[[str], str | None]:

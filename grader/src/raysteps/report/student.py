@@ -50,7 +50,7 @@ from raysteps.results.model import (
     TestResult,
     Total,
 )
-from raysteps.results.store import REPORT, read_results
+from raysteps.results.store import REPORT, RESULTS, read_results
 
 # The pictures of a submission, as far as there is room for them in one page.
 
@@ -629,7 +629,7 @@ def try_student_page(
 ) -> Path | None:
     """Of the results.json that was just written there: the results stand, whatever goes wrong with the page."""
     try:
-        return write_student_page(read_results(folder / "results.json"), folder, steps, progress)
+        return write_student_page(read_results(folder / RESULTS), folder, steps, progress)
     except Exception as error:  # a page is not worth a grade
         say(f"no {REPORT}: {reason_or_fault(error)}")
         return None

@@ -8,6 +8,7 @@ from raysteps.common.errors import GraderFault, UsageError, reason
 from raysteps.common.files import write_json
 from raysteps.results.model import Results
 
+RESULTS = "results.json"  # where a submission's results are kept
 REPORT = "report.html"  # the page of a results.json, beside it
 
 
@@ -19,7 +20,7 @@ def validate(results: Results) -> None:
 def write_results(results: Results, folder: Path) -> Path:
     """Checks and writes FOLDER/results.json; GraderFault says why it cannot be written."""
     validate(results)
-    path = folder / "results.json"
+    path = folder / RESULTS
     try:
         write_json(path, plain(results))
     except OSError as error:
