@@ -174,7 +174,7 @@ def _bounced(pair: Pair, mine: Ray, reference: Ray, way: Way) -> Iterator[Differ
         yield Difference((*child.place, "ray"), f"{name}: yours begins at {point(mine.origin)}", whole, problem)
     for below in along(child):
         if problem and below.place == (*child.place, "hit"):
-            yield below._replace(function=whole, why=problem, shaky=False)
+            yield below._replace(function=whole, why=problem, ill_conditioned=False)
         else:
             yield below
 
@@ -332,6 +332,6 @@ def find_divergence(mine: Record, reference: Record) -> Difference | None:
     """The first difference that rounding does not explain; nothing where the two agree."""
     alike = _as_bright(mine, reference, 1)
     for difference in _differences(mine, reference):
-        if not (difference.shaky and alike):
+        if not (difference.ill_conditioned and alike):
             return difference
     return None

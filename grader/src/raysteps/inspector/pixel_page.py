@@ -305,7 +305,7 @@ def page_ray(ray: Ray, record: Record, key: Key = ("eye",)) -> PageRay:
 # The page.
 
 
-def _parts_at(tree: PageRay, divergence: Difference | None) -> str:
+def _diverges_at(tree: PageRay, divergence: Difference | None) -> str:
     """The ray of the difference: the deepest one whose key begins the difference's place."""
     if divergence is None:
         return ""
@@ -332,7 +332,7 @@ def page_html(
         "divergence": divergence,
         "agreement": "" if reference is None else agreement(record, reference),
         "pictures": pictures,
-        "parts_at": {name: _parts_at(tree, divergence) for name, tree in trees.items()},
+        "diverges_at": {name: _diverges_at(tree, divergence) for name, tree in trees.items()},
         "swatch": shown_color([byte / 255 for byte in record.bytes] if record.bytes else None),
     }
     data = {name: plain(one) for name, one in records.items()}

@@ -108,7 +108,7 @@ class Difference(NamedTuple):
     words: str
     function: str
     why: str = ""
-    shaky: bool = False  # the two rays began a little apart already, so that an edge may lie between them
+    ill_conditioned: bool = False  # the two rays began a little apart already, so that an edge may lie between them
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,9 @@ class Pair:
 
     def at(self, item: str, words: str, function: str, why: str = "") -> Difference:
         plain = self.place == (EYE,) and not words.startswith("yours")  # what else happens at the eye ray needs no name
-        return Difference((*self.place, item), words if plain else f"{self.name}: {words}", function, why, self.shaky)
+        return Difference(
+            (*self.place, item), words if plain else f"{self.name}: {words}", function, why, self.ill_conditioned
+        )
 
     @property
     def hits(self) -> tuple[Hit, Hit]:
@@ -136,7 +138,7 @@ class Pair:
         return self.mine.hit, self.reference.hit
 
     @property
-    def shaky(self) -> bool:
+    def ill_conditioned(self) -> bool:
         return self.close > 2 * CLOSE
 
 
