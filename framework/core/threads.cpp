@@ -57,8 +57,8 @@ void run_on_threads(int count, const std::function<void()>& work) {
         for (int i = 1; i < count; ++i) {
             others.emplace_back(guarded);
         }
-    } catch (const std::exception&) {  // no more threads, or no memory for one
-        // fewer threads than asked for: slower, and the same result
+    } catch (const std::exception&) {
+        // no more threads, or no memory for one: slower, and the same result
     }
     guarded();
     for (std::thread& other : others) {

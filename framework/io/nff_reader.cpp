@@ -161,7 +161,7 @@ private:
             read_polygon(scanner_, fill(token), scene_);
         } else if (token.text == "pp") {
             read_patch(scanner_, fill(token), scene_);
-        } else if (looks_like_number(token.text)) {
+        } else if (parse_number(token.text)) {
             scanner_.fail(token, k_entity, quoted(token.text) + ", a number that belongs to no entity");
         } else {
             scanner_.fail(token, k_entity);

@@ -101,8 +101,8 @@ struct Bounds {
     int levels = k_deepest;
     std::size_t children = ~std::size_t{0};  ///< of a box
 };
-/// Of a tree that a box wants the reference to search, as it would search its own: the contracts of build_octree and
-/// build_bvh allow no more.
+/// Of a tree that a box wants the reference to search, as it would search its own: as deep as build_bvh may build one,
+/// and build_octree one of a small scene.
 constexpr Bounds k_searched_at_home{.levels = 500, .children = 8};
 constexpr int k_deepest_bvh = 64;
 

@@ -5,7 +5,8 @@
 //     std::optional<HitRecord> Triangle::intersect(const Ray& ray) const;
 //     std::optional<HitRecord> Sphere::intersect(const Ray& ray) const;
 // Both return the nearest hit with distance > 0, or std::nullopt. A hit at distance 0 does not count, and one nearer
-// than 0.0001 need not. Nothing else is left out: no far hit, no small sphere or triangle (0.002 across).
+// than 0.0001 need not. Nothing else is left out: no far hit, none at a flat angle, no small sphere or triangle
+// (0.002 across).
 // ray.direction has unit length. In the record that they return:
 //     position       the point on the ray
 //     fill           fill()

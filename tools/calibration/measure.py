@@ -301,8 +301,9 @@ class PictureShares:
 
 
 def _said(compiled: Compiled) -> str:
-    if compiled.forbidden or compiled.missing or compiled.undefined:
-        return f"names that do not fit: {', '.join(compiled.forbidden + compiled.missing + compiled.undefined)}"
+    names = compiled.forbidden + compiled.missing + compiled.undefined + compiled.hidden
+    if names:
+        return f"names that do not fit: {', '.join(names)}"
     return "does not compile:\n" + printable(compiled.ran.outcome.stderr)[:2000]
 
 

@@ -99,7 +99,7 @@ def check_live(project: Project) -> None:
 
 def make_live_figures(project: Project, registry: str, say: Callable[[str], None]) -> LiveFigures:
     """With the compiler of the page to work in, which is made ready where it has never run."""
-    cache, far = cache_of(project), rate_limited(say)
+    cache, far = cache_of(project.build / "play"), rate_limited(say)
     with file_lock(cache / ".lock", lambda: say("waiting for another command")):
         clang = WebClang(fetch(CLANG, cache / "packages", registry, far), cache, say)
         program = WebKit(project, clang, far).figures().read_bytes()

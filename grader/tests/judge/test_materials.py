@@ -243,7 +243,7 @@ def test_what_is_bent_farther_than_glass_bends_was_mirrored() -> None:
     inputs, right = {**_GLASS, "roughness": Real(_FROST)}, _frosted(0)
     numbers = right.split()
     numbers[10:13] = _line(np.array([0.0, 1.0, -0.001])).split()  # of the second sample
-    assert _said("scatter_glass", inputs, right, " ".join(numbers)) == "a mirrored direction leads below the surface"
+    assert _said("scatter_glass", inputs, right, " ".join(numbers)).startswith("a direction below the surface is bent")
 
 
 def test_what_is_mirrored_in_frosted_glass_is_fresnels_to_say() -> None:

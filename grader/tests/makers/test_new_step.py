@@ -93,16 +93,16 @@ def test_a_step_of_part_two_has_a_number_of_its_own(copy: Project) -> None:
     step = next(step for step in kit_steps(copy) if step.id.endswith("-mist"))
     assert (step.index, step.part) == (following, 2)
     assert step not in read_steps(copy)
+    assert _new(copy, "20-fog") == 0
+    assert [(step.id, step.part) for step in read_steps(copy)[9:]] == [("20-fog", 1)]
+    assert not outdated_stubs(copy, kit_steps(copy))
+    assert not outdated_samples(copy, kit_steps(copy))
 
 
 def test_a_part_may_have_no_number_left(copy: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(command._NUMBERS, 2, range(10, max(step.index for step in kit_steps(copy)) + 1))
     with pytest.raises(UsageError, match="part 2 has no number left; its steps are 10 to "):
         command.check_name(copy, "20-mist", 2)
-    assert _new(copy, "20-fog") == 0
-    assert [(step.id, step.part) for step in read_steps(copy)[9:]] == [("20-fog", 1)]
-    assert not outdated_stubs(copy, kit_steps(copy))
-    assert not outdated_samples(copy, kit_steps(copy))
 
 
 def test_what_is_still_the_samples_is_named_until_it_is_replaced(

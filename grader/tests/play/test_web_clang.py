@@ -92,7 +92,7 @@ int main() {
 
 @pytest.fixture(scope="module")
 def clang(project: Project) -> WebClang:
-    cache = cache_of(project)
+    cache = cache_of(project.build / "play")
     with with_packages():
         return WebClang(fetch(CLANG, cache / "packages", registry_of(None)), cache)
 

@@ -11,7 +11,6 @@ import pytest
 from raysteps.common.errors import UsageError
 from raysteps.course.manifest import Step
 from raysteps.course.project import Project
-from raysteps.play.packages import CACHE_VARIABLE
 from raysteps.release import build_release as making
 from raysteps.release import build_release as replacing
 from raysteps.release.build_release import Leaks, PageOptions, refuse_foreign_files, release
@@ -30,7 +29,6 @@ def _git(folder: Path, *words: str) -> str:
 def _no_pictures() -> Iterator[None]:
     """No test here looks at those that the reference draws."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.delenv(CACHE_VARIABLE, raising=False)
         patch.setattr(making, "write_reference_artifacts", lambda *_: None)
         yield
 

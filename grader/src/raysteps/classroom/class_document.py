@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
-from raysteps.classroom.database import ClassDatabase, has_table
+from raysteps.classroom.database import SUBMISSIONS, ClassDatabase, has_table
 from raysteps.classroom.entries import NOTHING_TAKEN, folded, read_shard, stem
 from raysteps.classroom.late_policy import apply_policy, parse_late_policy, with_zone
 from raysteps.classroom.resubmissions import Resubmissions
@@ -34,7 +34,7 @@ from raysteps.results.class_model import (
     Student,
 )
 from raysteps.results.model import USED_WITHOUT_VALUE, HandIn, Settings, StepResult
-from raysteps.results.store import stored_results
+from raysteps.results.store import RESULTS, stored_results
 
 # How one submission stands.
 
@@ -171,7 +171,7 @@ class CurrentResults:
             fault=current["fault"] if current is not None else "",
             note=" ".join(filter(None, (row["note"], OTHER_FORM if is_unread else ""))),
             not_taken=_not_taken(current["status"], steps) if current is not None else [],
-            results=f"submissions/{row['name']}/results.json" if results is not None else None,
+            results=f"{SUBMISSIONS}/{row['name']}/{RESULTS}" if results is not None else None,
             review=review,
         )
 

@@ -358,8 +358,9 @@ def has_table(connection: sqlite3.Connection, name: str) -> bool:
     return connection.execute(query, (name,)).fetchone() is not None
 
 
+# What lies in the folder of a class: the database, and what is made of it.
 FILE = "class.sqlite"
-CLASS_JSON = "class.json"  # and what is made of it, beside it
+CLASS_JSON = "class.json"
 SUBMISSIONS = "submissions"
 LOCK = "class.lock"
 # The run whose result of a submission counts.

@@ -10,7 +10,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 from rich.table import Table
 
-from raysteps.classroom.database import SUBMISSIONS
+from raysteps.classroom.database import CLASS_JSON, SUBMISSIONS
 from raysteps.classroom.late_policy import BY_FILE
 from raysteps.common.text import count, first_line, number, tenths
 from raysteps.report.class_overview import has_unread_files, is_late_by_file
@@ -69,11 +69,12 @@ class ProgressMeter:
             print(f"raysteps: {text}", file=sys.stderr, flush=True)
 
     def _left(self) -> str:
-        """Nothing until one was graded that began after another's end: those that begin at once end at once."""
+        """Nothing until one was graded that began after another's end: those that begin at once end at about the time
+        of the first."""
         left = self._total - self._done
         if self._graded <= self._at_once or not left:
             return ""
-        return f"about {_span((time.monotonic() - self._first) / (self._graded - 1) * left)} left"
+        return f"about {_span((time.monotonic() - self._first) / (self._graded - self._at_once) * left)} left"
 
     def skip(self) -> None:
         """One that need not be graded."""
@@ -254,7 +255,7 @@ def print_summary(console: Console, document: ClassResults, out: Path) -> None:
     if isolations:
         console.print(f"Isolation: {', '.join(isolations)}")
     console.print(
-        f"Table: {escape(str(out / 'results.csv'))}, all facts: {escape(str(out / 'class.json'))}", soft_wrap=True
+        f"Table: {escape(str(out / 'results.csv'))}, all facts: {escape(str(out / CLASS_JSON))}", soft_wrap=True
     )
     console.print(f"Page: {escape(str(out / CLASS_PAGE))}", soft_wrap=True)
     console.print(f"Per submission: {escape(str(out / SUBMISSIONS))}", soft_wrap=True)

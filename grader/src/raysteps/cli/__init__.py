@@ -2,10 +2,10 @@
 
 import argparse
 import math
+import os
 import re
 from collections.abc import Iterable, Sequence
 from itertools import takewhile
-from pathlib import Path
 from typing import Any, NoReturn
 
 from raysteps.common.platform import kit_command, own_command
@@ -40,10 +40,10 @@ def square_number(most: int, word: str) -> int:
     return int(word)
 
 
-def whole_number(least: int, most: int | None, word: str) -> int:
-    """Likewise; None is no limit."""
-    if not re.fullmatch(r"[0-9]{1,9}", word) or not least <= int(word) <= (int(word) if most is None else most):
-        range_ = f"{least} on" if most is None else f"{least} to {most}"
+def whole_number(least: int, most: float, word: str) -> int:
+    """Likewise; `most` may be infinite."""
+    if not re.fullmatch(r"[0-9]{1,9}", word) or not least <= int(word) <= most:
+        range_ = f"{least} on" if most == math.inf else f"{least} to {most}"
         raise argparse.ArgumentTypeError(f"expected a whole number from {range_}, found '{word}'")
     return int(word)
 
@@ -125,7 +125,7 @@ class Parser(argparse.ArgumentParser):
     def _refuse_paths(self, words: Iterable[str]) -> None:
         """Of what is there and begins as an option does."""
         for word in words:
-            if re.match("-[^-]", word) and word[:2] not in self._option_string_actions and Path(word).exists():
+            if re.match("-[^-]", word) and word[:2] not in self._option_string_actions and os.path.lexists(word):
                 self.error(f"{word}: this would be an option; a path that begins with '-' is typed like ./{word}")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:

@@ -1,6 +1,7 @@
 """The command lines of `list`, `next`, `hint` and `reset`."""
 
 import argparse
+import math
 from functools import partial
 
 from rich.console import Console
@@ -21,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     if name == "hint":
         parser.add_argument("step", nargs="?", metavar="STEP", help=f"{STEP_NAMES}; the next one when none is given")
         which = parser.add_mutually_exclusive_group()
-        level = partial(whole_number, 1, None)
+        level = partial(whole_number, 1, math.inf)
         which.add_argument("--level", type=level, metavar="N", help="this hint, counted from 1")
         which.add_argument("--all", action="store_true", help="all hints of the step")
         which.add_argument("--again", action="store_true", help="those that you have read")

@@ -34,7 +34,7 @@ def _signals() -> Iterator[int]:
         os.close(heard)
 
 
-_WORDS = 4096  # more than are ever said at a time
+_MOST = 4096  # bytes at a time: each is a word
 
 
 def _is_over(end: int, seconds: float) -> bool:
@@ -45,7 +45,7 @@ def _is_over(end: int, seconds: float) -> bool:
             if signals in ready:
                 os.read(signals, 1)
             if end in ready:
-                over = not os.read(end, _WORDS)
+                over = not os.read(end, _MOST)
                 give_up = time.monotonic() + seconds
     return over
 

@@ -174,6 +174,7 @@ def mutant_fingerprints(
     if known is None:
         what = f"learning the known mistakes of {step.number} (once)"
         with file_lock(path.with_suffix(".lock"), lambda: say(f"{what}: another command does it")):
+            restart_clock()  # after waiting for another command
             known = _found(path)
             if known is None:
                 say(what)

@@ -254,11 +254,11 @@ def _in_its_place(names: tuple[str, ...], source: str) -> str:
         return "\nThe file holds nothing but comments. Is the code commented out?"
     name = names[0].partition("(")[0].rpartition("::")[2]
     defined = list(dict.fromkeys(_DEFINED.findall(source)))[:_MAX_DEFINED]
+    if name in defined and re.search(rf"\binline\b[^;{{}}()]{{0,200}}\b{name}\s?\(", source):
+        return f"\nThe file has {name}, but marked as inline, so that only the file itself can call it."
     if "::" in names[0].partition("(")[0].replace("raysteps::", "") and name in defined:
         return ""  # of another class: with other arguments than the class tells, it would not compile
     if name in defined:
-        if re.search(rf"\binline\b[^;{{}}()]{{0,200}}\b{name}\s?\(", source):
-            return f"\nThe file has {name}, but marked as inline, so that only the file itself can call it."
         return f"\nThe file has {name}, but with other arguments than the header's, or outside of namespace raysteps."
     other = next((one for one in defined if one.lower() == name.lower()), None) or nearest(name, defined)
     return f"\nThe file has {other}: is that meant to be {name}? Upper and lower case differ, too." if other else ""

@@ -45,7 +45,7 @@ from raysteps.judge.hidden_tests import make_all_cases, revoke_tree_points, run_
 from raysteps.judge.plan import Plan, read_plan
 from raysteps.judge.worker import Ask, ask_some, ask_student, reference_answers, uncached_reference_answers
 from raysteps.results.model import HiddenResult, ImageResult, Integration, Results, Settings, StepResult, Timing
-from raysteps.results.store import write_results
+from raysteps.results.store import RESULTS, write_results
 from raysteps.sandbox.task import AccountingSandbox, Sandbox, TaskResult
 from raysteps.submission.load import Submission
 from raysteps.toolchain.compile import NOTHING_AHEAD, Compiled, CompiledAhead, Program, StudentBuild
@@ -399,9 +399,7 @@ def _refuse_faults(graders: Sequence[HiddenStepGrader], out: Path) -> None:
     """When all is written."""
     faults = [grader.fault for grader in graders if grader.fault]
     if faults:
-        raise GraderFault(
-            f"not graded: {'; '.join(faults)}; what became of the other steps is in {out / 'results.json'}"
-        )
+        raise GraderFault(f"not graded: {'; '.join(faults)}; what became of the other steps is in {out / RESULTS}")
 
 
 def grade_submission(

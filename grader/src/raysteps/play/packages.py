@@ -1,5 +1,5 @@
-"""What is kept in build/play: the packages of others that the page needs, from the npm registry, pinned by their hashes
-and loaded down once, and what the page is made of."""
+"""What is kept in build/play, or in a folder that clones share: the packages of others that the page needs, from the
+npm registry, pinned by their hashes and loaded down once, and what the page is made of."""
 
 import base64
 import hashlib
@@ -11,6 +11,7 @@ import re
 import shutil
 import tarfile
 import tempfile
+import time
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -21,7 +22,6 @@ from pathlib import Path
 from raysteps.common.errors import UsageError, reason
 from raysteps.common.files import write_bytes, write_json
 from raysteps.common.text import shorten
-from raysteps.course.project import Project
 
 REGISTRY = "https://registry.npmjs.org"
 _SECONDS = 60  # without a byte
@@ -259,14 +259,6 @@ _RECORD = "used.json"
 _PAGES, _PAGES_OF_OBJECTS = 2, 4
 
 
-CACHE_VARIABLE = "RAYSTEPS_PLAY_CACHE"
-
-
-def cache_of(project: Project) -> Path:
-    """Where the compiler and what it made lie: in the build folder, or where the variable says, for several clones."""
-    return Path(os.environ.get(CACHE_VARIABLE) or project.build / "play")
-
-
 def clear(cache: Path, used: Iterable[Path]) -> None:
     """Removes the rest from the folders in which `used` lie, folders or files; these are named without their ending,
     and all of such a name belong together."""
@@ -286,6 +278,29 @@ def clear(cache: Path, used: Iterable[Path]) -> None:
                 continue
             with suppress(OSError):  # on Windows somebody may have it open
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+# The compiler, and what it made, where several clones share it: kept until none has used it for a while.
+
+CACHE_VARIABLE = "RAYSTEPS_PLAY_CACHE"
+_DAYS = 14
+
+
+def cache_of(own: Path) -> Path:
+    """Where they lie: in the folder of one's own, or where the variable says."""
+    return Path(os.environ.get(CACHE_VARIABLE) or own)
+
+
+def clear_by_age(cache: Path, used: Iterable[Path]) -> None:
+    """Removes objects that were not among those in use for two weeks. Others may be using any of the rest."""
+    for place in used:
+        for path in place.parent.glob(f"{place.name}.*"):
+            os.utime(path)
+    oldest = time.time() - _DAYS * 24 * 3600
+    for path in (cache / "objects").glob("*"):
+        with suppress(OSError):
+            if path.stat().st_mtime < oldest:
+                path.unlink()
 
 
 def content_mark(content: Mapping[str, bytes]) -> str:

@@ -36,7 +36,7 @@ from raysteps.grading.images import NO_TESTS, TOO_MANY_TESTS
 from raysteps.images.compare import parse_ppm, read_png, write_png
 from raysteps.images.noise import read_estimates, with_samples
 from raysteps.images.render import ENDLESS, reference_image_path, stored_parts
-from raysteps.play.packages import CLANG, EDITOR, cache_of, clear, fetch, written_once
+from raysteps.play.packages import CLANG, EDITOR, cache_of, clear, clear_by_age, fetch, written_once
 from raysteps.play.web_clang import INPUT, OUTPUT, WebClang
 from raysteps.play.web_kit import MAX_AT_ONCE, WebKit, headers_path
 from raysteps.report.page import COMPARE_SCRIPTS, COMPARE_STYLES, SPACE_SCRIPTS, render_page
@@ -216,7 +216,8 @@ class PlayPage:
         self._registry = registry
         self._say_once = say
         self._say = rate_limited(say)
-        self._cache = cache or cache_of(project)
+        self._own = cache or project.build / "play"
+        self._cache = cache_of(self._own)
         self._packages = self._cache / "packages"
         self._clang = WebClang(fetch(CLANG, self._packages, registry, self._say), self._cache, say)
         self._kit = WebKit(project, self._clang, self._say)
@@ -230,9 +231,13 @@ class PlayPage:
         """The folder, in which index.html is the page. A page that is served already keeps its own."""
         with file_lock(self._cache / ".lock", lambda: self._say_once("waiting for another command")):
             self._collect()
-            folder = written_once(self._cache, "site", self._content)
-            packages = [self._packages / package.folder for package in (CLANG, *EDITOR)]
-            clear(self._cache, [folder, *packages, *self._clang.used, *self._kit.used])
+            folder = written_once(self._own, "site", self._content)
+            if self._cache == self._own:
+                packages = [self._packages / package.folder for package in (CLANG, *EDITOR)]
+                clear(self._own, [folder, *packages, *self._clang.used, *self._kit.used])
+            else:
+                clear(self._own, [folder])
+                clear_by_age(self._cache, self._kit.used)
         return folder
 
     def _collect(self) -> None:

@@ -24,7 +24,6 @@ from raysteps.course.manifest import (
 from raysteps.course.project import Project
 from raysteps.course.settings import read_course
 from raysteps.images.render import write_reference_image
-from raysteps.play.packages import cache_of
 from raysteps.play.play_page import PlayPage, check_published, publish
 from raysteps.release.contents import kit_contents, refuse_untracked
 from raysteps.release.kit_pages import add_pictures, for_editor, pyproject, readme, unlink_missing, word_for_students
@@ -202,7 +201,7 @@ class PageOptions:
 
 def _students_page(kit: BuiltKit, folder: Path, registry: str, say: ProgressCallback) -> Path:
     """Made of the release, in the cache of the whole kit; nothing of it stays in the release."""
-    made = PlayPage(Project(folder), registry, say, cache_of(kit.project)).make()
+    made = PlayPage(Project(folder), registry, say, kit.project.build / "play").make()
     shutil.rmtree(folder / "build")
     return made
 

@@ -511,11 +511,13 @@ def _astray(is_mirrored: Mask, normals: Numbers) -> str:
 
 def _unbent_problem(cosines: Numbers, eta: float) -> str:
     """`cosines`: between the view and directions below the surface. What is refracted lies on the other side of its
-    microfacet, and is bent by no more than a ray along that: what is bent farther was mirrored."""
-    return _MIRRORED_BELOW if (cosines > 1e-3 - min(eta, 1 / eta)).any() else ""
+    microfacet, and is bent by no more than a ray along that."""
+    return _BENT_TOO_FAR if (cosines > 1e-3 - min(eta, 1 / eta)).any() else ""
 
 
-_MIRRORED_BELOW = "a mirrored direction leads below the surface"
+_BENT_TOO_FAR = (
+    "a direction below the surface is bent farther than glass bends: it was refracted wrongly, or mirrored downwards"
+)
 
 
 def _odds_problem(is_mirrored: Mask, shares: Numbers, view: Numbers, normals: Numbers, nothing: int) -> str:

@@ -107,7 +107,7 @@ def _extreme_colors(draw: RandomSource) -> Inputs:
 
 
 def _dim(draw: RandomSource, lamp: Light) -> Light:
-    """Too dark for one lamp to be seen: light is added up all the same."""
+    """Each adds little, and counts all the same."""
     return replace(lamp, color=draw.color(0.005, 0.05))
 
 

@@ -168,7 +168,10 @@ class Page {
     const isMine = await this.#takeTurn(wanted); // after it was kept: another tab may have it now
     const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
     const old = await this.#work.read(replaced(wanted));
-    await this.#keep();
+    if (!(await this.#keep())) {
+      this.#stay(wanted, "is not opened: what you wrote here would be lost.");
+      return;
+    }
     if (wanted !== chosen() || wanted === this.#step) {
       return; // another one was chosen while this one was read
     }
@@ -324,11 +327,14 @@ class Page {
       return;
     }
     const old = this.#editor.text;
+    await this.#work.write(step.id, text);
+    await this.#work.write(replaced(step), old);
+    if (step !== this.#step) {
+      return;
+    }
     this.#show(text, true);
     this.#editor.focus(); // the button may be gone
     this.#offer(old);
-    await this.#work.write(step.id, text);
-    await this.#work.write(replaced(step), old);
     await this.run();
   }
 
@@ -359,6 +365,7 @@ class Page {
       return;
     }
     if (!(await this.#keep())) {
+      this.#say("bad", `${zip.name} is not opened: what you wrote here would be lost.`);
       return;
     }
     const [opened, left] = [[], []];
@@ -524,7 +531,8 @@ class Page {
 
   /** What the page itself could not do. */
   tellFault(error) {
-    const what = "Is its server still there? Press Run to try again, or load the page again.";
+    const what =
+      "Is its server still there? Press Run to try again, or load the page again; Save as zip keeps your work.";
     this.#say("bad", `The page has a fault: ${error.message}. ${what}`);
   }
 

@@ -60,7 +60,11 @@ export class Work {
   async read(step) {
     const left = this.#left(step);
     if (left !== null) {
-      await written(this.#store("readwrite").put(left, step));
+      try {
+        await written(this.#store("readwrite").put(left, step));
+      } catch {
+        return left; // no room: it stays where it is
+      }
       this.#dropLeft(step);
     }
     return asked(this.#store("readonly").get(step));
