@@ -134,7 +134,7 @@ def _pytest(
     project: Project, files: Sequence[str], marks: Sequence[str], inputs: Mapping[str, FileFilter]
 ) -> _PytestRun:
     """Of these files, none of them being all."""
-    spread = ["-n", str(2 * processor_count())]  # twice as many as processors: tests mostly wait for programs
+    spread = ["-n", str(processor_count() + 1)]  # one more than processors: tests wait for programs, which are many
     spread += ["--dist", "loadgroup", "--no-loadscope-reorder"]  # groups make something costly once; slow ones first
     with tempfile.TemporaryDirectory(prefix="raysteps-") as folder:
         words: list[str | Path] = [sys.executable, "-P", "-m", "pytest", "-q", "--tb", "short", *spread]
