@@ -48,7 +48,7 @@ def test_a_hang_is_stopped() -> None:
     start = time.monotonic()
     outcome = _python("import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); time.sleep(60)", seconds=1)
     assert outcome.timed_out
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 30
 
 
 def test_closed_pipes_do_not_hide_a_hang() -> None:
@@ -62,11 +62,11 @@ def test_a_flood_is_capped() -> None:
 def test_a_child_that_holds_the_pipe_does_not_hold_the_grader() -> None:
     start = time.monotonic()
     code = (
-        "import os, time\nif os.fork() == 0:\n    os.setsid()\n    time.sleep(8)\nelse:\n    print('done', flush=True)"
+        "import os, time\nif os.fork() == 0:\n    os.setsid()\n    time.sleep(60)\nelse:\n    print('done', flush=True)"
     )
     outcome = _python(code)
     assert outcome.stdout == "done\n"
-    assert time.monotonic() - start < 6
+    assert time.monotonic() - start < 30
 
 
 def test_windows_tells_crashes_by_large_exit_codes() -> None:

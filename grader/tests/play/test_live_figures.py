@@ -186,8 +186,9 @@ def test_the_tone_curve_is_dragged_by_a_finger(
 _ANSWER_TIMES = """async (figure) => {
     const slider = figure.querySelector("input"), text = figure.querySelector(".live-says"), times = [];
     const [low, high] = [Number(slider.min), Number(slider.max)];
-    for (let at = 0; at < 40; at++) {
-        const drawn = new Promise((resolve) => {
+    for (let at = 0; at < 10; at++) {
+        const drawn = new Promise((resolve, reject) => {
+            setTimeout(() => reject(new Error(`no answer to move ${at}`)), 60000);
             const watch = new MutationObserver(() => { watch.disconnect(); resolve(); });
             watch.observe(text, { childList: true });
         });
@@ -203,9 +204,8 @@ _ANSWER_TIMES = """async (figure) => {
 
 def _assert_each_move_is_answered(page: "Page", name: str) -> None:
     """One frame of a drag after the other. How long an answer takes is shown, and no check: others may work here."""
-    times = _figure(page, name).evaluate(_ANSWER_TIMES)
+    times = _figure(page, name).evaluate(_ANSWER_TIMES)  # fails where a move has no answer
     print(f"{name}: {times[0]:.1f} ms at best, {times[len(times) // 2]:.1f} ms in the middle")
-    assert len(times) == 40
 
 
 def _assert_accessible_in_the_dark(page: "Page") -> None:

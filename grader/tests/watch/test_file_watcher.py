@@ -27,7 +27,7 @@ class Watched:
         self.path = project.steps / step.path
         self.saves = FileWatcher(project, step, self.events.put, poll=poll)
 
-    def next(self, seconds: float = 10) -> Event:
+    def next(self, seconds: float = 60) -> Event:
         return self.events.get(timeout=seconds)
 
     def assert_quiet(self, seconds: float = 0.4) -> None:
@@ -73,12 +73,14 @@ def test_a_save_by_renaming(watched: Watched) -> None:
     watched.assert_quiet()
 
 
-def test_a_burst_is_few_saves(watched: Watched) -> None:
+def test_a_burst_is_few_saves(watched: Watched, course: Project) -> None:
     for number in range(100):
         save(watched.path, f"int a = {number};")
-    watched.next()
-    time.sleep(0.5)
-    assert watched.events.qsize() < 10
+    save(course.root / "framework" / "core" / "ray.hpp", "int last;")
+    amount = 1
+    while not (isinstance(found := watched.next(), FileSaved) and found.owner == "kit"):
+        amount += 1
+    assert amount < 10
 
 
 def test_nothing_new_is_no_save(watched: Watched, steps: list[Step]) -> None:
@@ -120,12 +122,10 @@ def test_what_the_program_is_built_from_counts_too(watched: Watched, course: Pro
 def test_many_at_once_are_one_save(watched: Watched, course: Project) -> None:
     save(course.root / "framework" / "core" / "ray.hpp", "int changed;")
     save(watched.path, "int changed;")
-    found = watched.next()
-    assert found in (
-        FileSaved("framework/core/ray.hpp and 1 more file", "kit"),
-        FileSaved(_OWN),  # where the second came only after the first was told of
-        FileSaved("framework/core/ray.hpp", "kit"),
-    )
+    if (found := watched.next()) != FileSaved("framework/core/ray.hpp and 1 more file", "kit"):
+        both = {FileSaved(_OWN), FileSaved("framework/core/ray.hpp", "kit")}
+        assert {found, watched.next()} == both  # where the second came only after the first was told of
+    watched.assert_quiet()
 
 
 def test_another_step_from_now_on(watched: Watched, course: Project, steps: list[Step]) -> None:

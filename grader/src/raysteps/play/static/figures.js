@@ -310,7 +310,7 @@ export class Figures {
       try {
         await this.#answer(next);
       } catch (error) {
-        next.tell(`Your code's answer cannot be drawn: ${error.message}.`);
+        next.tell(`The figure has a fault: ${error.message}.`);
       }
     }
     this.#isAsking = false;
@@ -322,10 +322,17 @@ export class Figures {
     const ran = await this.#runner.run(task, SECONDS);
     const missing = unwritten(ran);
     const waited = figure.isDrawnWithout(missing) ? [] : missing;
-    const answer = waited.length ? null : answerOf(ran);
-    if (answer) {
-      figure.show(values, answer, missing);
-    } else if (ran.stopped !== "hand") {
+    let answer = null;
+    try {
+      answer = waited.length ? null : answerOf(ran);
+      if (answer) {
+        figure.show(values, answer, missing);
+      }
+    } catch (error) {
+      figure.tell(`Your code's answer cannot be drawn: ${error.message}.`);
+      return;
+    }
+    if (!answer && ran.stopped !== "hand") {
       figure.tell(whyNot(ran, waited), waited.length > 0);
     }
   }
