@@ -36,7 +36,7 @@ void run(const ViewOptions& options) {
     if (picture.threads > 0) {
         set_default_threads(picture.threads);
     }
-    Scene scene = load_scene(picture.scene, picture.size);
+    const Scene scene = load_scene(picture.scene, picture.size);
     check_size(scene.camera);
     check_click(options, scene.camera);
     run_viewer(scene, {.scene = picture.scene,

@@ -213,10 +213,10 @@ def test_other_bytes_are_no_estimates(data: bytes) -> None:
 
 def test_the_reference_takes_more_samples_of_another_seed() -> None:
     args = ("--step", "12", "--samples", "9", "--filter", "box")
-    assert with_samples(args, 4) == ("--step", "12", "--filter", "box", "--samples", "36", "--seed", "11")
+    assert with_samples(args, 4) == ("--step", "12", "--samples", "36", "--filter", "box", "--seed", "11")
     assert samples_of(with_samples(("--step", "12"), 16)) == 256
     seeded = with_samples(("--seed", "8", "--samples", "9"), 4)
-    assert seeded == ("--samples", "36", "--seed", "11")
+    assert seeded == ("--seed", "11", "--samples", "36")
 
 
 def test_light_is_shown_by_the_curve_of_a_screen() -> None:

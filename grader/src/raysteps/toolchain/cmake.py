@@ -126,6 +126,8 @@ def release_tree(project: Project) -> BuildTree:
 def what_failed(outcome: Outcome) -> str:
     """The part of a failed build that a person needs: from its first failure on."""
     text = printable(outcome.stdout + outcome.stderr)
-    before = {"FAILED:": 0, "error:": 400, "error C": 400}  # how much of what comes before the word is shown, too
-    start = min((max(0, text.find(word) - shown) for word, shown in before.items() if word in text), default=0)
+    failed = text.find("FAILED:")
+    errors = [text.find(word) for word in ("error:", "error C") if word in text]
+    starts = [max(0, at - 400) for at in errors if at > 400 or not 0 <= failed < at]  # with what stands before it
+    start = min([*starts, *([failed] if failed >= 0 else [])], default=0)
     return shorten(text[text.rfind("\n", 0, start) + 1 :], 6000)
