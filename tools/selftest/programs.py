@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 
@@ -226,8 +226,10 @@ def use_caches() -> None:
         asked = subprocess.run([ccache, "--get-config", "cache_dir"], capture_output=True, check=False, text=True)
         if folder := asked.stdout.strip():
             os.environ.setdefault("CCACHE_DIR", folder)
-    caches = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    os.environ.setdefault(CACHE_VARIABLE, str(caches / "raysteps" / "play"))
+    with suppress(OSError, RuntimeError):  # no home, or none to write in
+        page = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "raysteps" / "play"
+        page.mkdir(parents=True, exist_ok=True)
+        os.environ.setdefault(CACHE_VARIABLE, str(page))
 
 
 # Programs for Windows: compiled here by MinGW-w64, run by Wine.
