@@ -161,15 +161,13 @@ class Page {
       this.#stay(wanted, `cannot be loaded. ${help}`);
       return;
     }
-    if (!(await this.#keep())) {
-      this.#stay(wanted, "is not opened: what you wrote here would be lost.");
+    if (!(await this.#keepBefore(wanted))) {
       return;
     }
     const isMine = await this.#takeTurn(wanted); // after it was kept: another tab may have it now
     const source = (await this.#work.read(wanted.id)) ?? wanted.stub;
     const old = await this.#work.read(replaced(wanted));
-    if (!(await this.#keep())) {
-      this.#stay(wanted, "is not opened: what you wrote here would be lost.");
+    if (!(await this.#keepBefore(wanted))) {
       return;
     }
     if (wanted !== chosen() || wanted === this.#step) {
@@ -300,6 +298,15 @@ class Page {
   /** A text that was replaced. */
   #offer(old) {
     element("play-back").hidden = !old || old === this.#step.stub;
+  }
+
+  /** Whether another step can take the place of this one; if not, the page has said so and stays. */
+  async #keepBefore(wanted) {
+    const isKept = await this.#keep();
+    if (!isKept) {
+      this.#stay(wanted, "is not opened: what you wrote here would be lost.");
+    }
+    return isKept;
   }
 
   async #reset() {
